@@ -12,7 +12,7 @@
 namespace ballast {
 
 struct ScalingOptions {
-  std::vector<long> grains;  ///< wanted; what comes is the block's grains times a number of tiles
+  std::vector<int> grains;  ///< wanted; what comes is the block's grains times a number of tiles
   std::vector<int> threads{1};
   int warm_up = 5, steps = 10;  ///< of each packing
   int sweeps = 10;              ///< timed on the last step's problem

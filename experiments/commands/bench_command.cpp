@@ -17,45 +17,23 @@ namespace ballast {
 
 namespace {
 
-/// What all that measure have on their command lines.
+/// What is on the command lines; each subcommand has some of it.
 struct BenchRequest {
-  std::string scene = "vibrated_box";
-  std::vector<std::string> overrides;
-  std::filesystem::path output = "results/bench", packing_cache = "results/packings";
+  std::vector<std::string> problems;
+  LiveOptions live;  ///< and the scene that all others measure on
+  std::filesystem::path output = "results/bench";
   bool plot = true;
-
-  DepositedBox box() const { return deposited_box(scene, overrides, packing_cache); }
-};
-struct KernelRequest : BenchRequest {
   KernelBenchOptions kernels;
-};
-struct StepRequest : BenchRequest {
   int steps = 1000;
-  std::string threads_text = "1";
-  std::vector<int> threads;
-};
-struct ScalingRequest : BenchRequest {
-  std::string grains_text = "1000,10000,100000", threads_text = "1", solvers_text = "pgs,nncg";
+  std::vector<int> threads{1}, iterations{20, 50, 100, 200};
   ScalingOptions scaling;
-};
-struct AccuracyRequest : BenchRequest {
-  std::string solvers_text = "nesterov_pgs,nncg,pgs,apgd", tolerances_text = "1e-2,1e-3",
-              iterations_text = "20,50,100,200";
-  LiveOptions live;
-  std::vector<int> iterations;
+  CompareOptions captured;
+
+  DepositedBox box() const { return deposited_box(live.scene, live.overrides, live.packing_cache); }
 };
 
 constexpr int most_count = 1'000'000'000;  // of steps, iterations, repetitions
 
-/// Whole numbers from 1 to `most_count`, separated by commas.
-std::vector<int> counts(const std::string& list) {
-  const std::vector<long> numbers = parse_counts(list, most_count);
-  return {numbers.begin(), numbers.end()};
-}
-std::vector<int> thread_counts(const std::string& list) {
-  const std::vector<long> numbers = parse_counts(list, 256);
-  return {numbers.begin(), numbers.end()};
-}
 std::vector<std::string> solver_names(const std::string& list) {
   std::vector<std::string> names;
   for (const ComparedSolver& solver : parse_solvers(list)) names.push_back(solver.name);
@@ -79,7 +57,7 @@ ExitCode finish(const BenchRequest& request, const std::string& kind,
   return ExitCode::ok;
 }
 
-ExitCode bench_kernels(const KernelRequest& request) {
+ExitCode bench_kernels(const BenchRequest& request) {
   const DepositedBox box = request.box();
   try {
     return finish(request, "kernels", run_kernels(step_kernels(box, 20), request.kernels), nullptr);
@@ -88,7 +66,7 @@ ExitCode bench_kernels(const KernelRequest& request) {
   }
 }
 
-ExitCode bench_step(const StepRequest& request) {
+ExitCode bench_step(const BenchRequest& request) {
   const DepositedBox box = request.box();
   std::vector<Measurement> measurements;
   Figure figure;
@@ -102,7 +80,7 @@ ExitCode bench_step(const StepRequest& request) {
   return finish(request, "step", measurements, &figure);
 }
 
-ExitCode bench_scaling(const ScalingRequest& request) {
+ExitCode bench_scaling(const BenchRequest& request) {
   const DepositedBox box = request.box();
   const auto points = measure_scaling(box, request.scaling, [](const ScalingPoint& p) {
     std::cout << p.nx << " x " << p.ny << " copies, " << p.grains << " grains, " << p.threads
@@ -116,11 +94,8 @@ ExitCode bench_scaling(const ScalingRequest& request) {
   return finish(request, "scaling", measurements, &figure);
 }
 
-ExitCode bench_accuracy(const AccuracyRequest& request) {
+ExitCode bench_accuracy(const BenchRequest& request) {
   LiveOptions live = request.live;
-  live.scene = request.scene;
-  live.overrides = request.overrides;
-  live.packing_cache = request.packing_cache;
   live.folder = request.output / "live";
   const LiveComparison comparison =
       measure_accuracy(live, request.iterations, [](const Trajectory& t) {
@@ -131,16 +106,9 @@ ExitCode bench_accuracy(const AccuracyRequest& request) {
   return finish(request, "accuracy", accuracy_measurements(comparison), &figure);
 }
 
-struct CapturedRequest : BenchRequest {
-  std::vector<std::string> files;
-  std::string solvers_text = "nesterov_pgs,newton_burst",
-              tolerances_text = "1e-1,1e-2,1e-3,1e-4,1e-6", starts_text = "warm";
-  CompareOptions comparison;
-};
-
-ExitCode bench_captured(const CapturedRequest& request) {
+ExitCode bench_captured(const BenchRequest& request) {
   restart_with_one_algebra_thread();
-  CompareOptions options = request.comparison;
+  CompareOptions options = request.captured;
   options.folder = request.output;
   options.command = own_command();
   const InterruptGuard guard;
@@ -150,108 +118,107 @@ ExitCode bench_captured(const CapturedRequest& request) {
                 name_of(r.verdict), r.seconds(), r.error, r.distance.velocity));
     return !InterruptGuard::requested();
   };
-  const auto rows = run_comparison(compare_cases(request.files), options, said);
+  const auto rows = run_comparison(compare_cases(request.problems), options, said);
   const Figure figure = captured_figure(rows);
   return finish(request, "captured", captured_measurements(rows),
                 figure.panels.empty() ? nullptr : &figure);
 }
 
-/// A subcommand that measures: what all of them have, then `more`.
-template <class Request>
-Command measuring(const char* name, const char* meaning, const std::shared_ptr<Request>& request,
-                  ExitCode (*act)(const Request&), std::vector<Word> more) {
+/// A subcommand that measures on a scene: what all of them have, then `more`.
+Command measuring(const char* name, const char* meaning,
+                  const std::shared_ptr<BenchRequest>& request,
+                  ExitCode (*act)(const BenchRequest&), const std::vector<Word>& more) {
+  LiveOptions& live = request->live;
+  if (live.scene.empty()) live.scene = "vibrated_box";
+  live.packing_cache = "results/packings";
   std::vector<Word> words{
-      {"scene", &request->scene, "A scene with grains (" + request->scene + ")"},
-      {"--set KEY=VALUE", &request->overrides,
-       "Overrides one value of the scene: dotted.key=value"},
-      {"--packing-cache DIR", &request->packing_cache, "Where deposited packings are kept", shown},
-      {"--output DIR", &request->output, "Folder of the results", shown},
+      {"scene", &live.scene, "A scene with grains"},
+      {"--set KEY=VALUE", &live.overrides, "Overrides one value of the scene: dotted.key=value"},
+      {"--packing-cache DIR", &live.packing_cache, "Where deposited packings are kept"},
+      {"--output DIR", &request->output, "Folder of the results"},
       {"--no-plot", &request->plot, "No figure"}};
   words.insert(words.end(), more.begin(), more.end());
   return {name, meaning, words, [=] { return act(*request); }};
 }
 
 Command kernels_command() {
-  const auto request = std::make_shared<KernelRequest>();
-  request->scene = "vibrated_box_small";
+  const auto request = std::make_shared<BenchRequest>();
+  request->live.scene = "vibrated_box_small";
   KernelBenchOptions& kernels = request->kernels;
-  return measuring(
-      "kernels", "The inner loops of a step on their own", request, bench_kernels,
-      {{"--filter", &kernels.filter, "A part of group/name"},
-       {"--min-time", &kernels.min_time, "CPU seconds of a repetition", shown, above(0)},
-       {"--repeats", &kernels.repeats, "Repetitions", shown, between(1, most_count)}});
+  return measuring("kernels", "The inner loops of a step on their own", request, bench_kernels,
+                   {{"--filter", &kernels.filter, "A part of group/name"},
+                    {"--min-time", &kernels.min_time, "CPU seconds of a repetition", above(0)},
+                    {"--repeats", &kernels.repeats, "Repetitions", between(1, most_count)}});
 }
 
 Command step_command() {
-  const auto request = std::make_shared<StepRequest>();
-  return measuring(
-      "step", "Whole steps by phase, from the deposited packing driven", request, bench_step,
-      {{"--steps", &request->steps, "Steps", shown, between(1, most_count)},
-       {"--threads", &request->threads_text, "Threads of the solver, separated by commas", shown,
-        into(request->threads, thread_counts)}});
+  const auto request = std::make_shared<BenchRequest>();
+  return measuring("step", "Whole steps by phase, from the deposited packing driven", request,
+                   bench_step,
+                   {{"--steps", &request->steps, "Steps", between(1, most_count)},
+                    {"--threads", &request->threads, "Threads of the solver, separated by commas",
+                     between(1, 256)}});
 }
 
 Command scaling_command() {
-  const auto request = std::make_shared<ScalingRequest>();
+  const auto request = std::make_shared<BenchRequest>();
   ScalingOptions& scaling = request->scaling;
+  scaling.grains = {1000, 10000, 100000};
   return measuring(
       "scaling", "Cost per grain of growing packings: copies of the deposited one side by side",
       request, bench_scaling,
-      {{"--grains", &request->grains_text,
-        "Grains, separated by commas: each the nearest number of copies", shown,
-        into(scaling.grains,
-             [](const std::string& list) { return parse_counts(list, most_count / 10); })},
-       {"--threads", &request->threads_text, "Threads of the solver, separated by commas", shown,
-        into(scaling.threads, thread_counts)},
-       {"--steps", &scaling.steps, "Measured steps", shown, between(1, most_count)},
-       {"--warm-up", &scaling.warm_up, "Steps before them", shown, between(1, most_count)},
-       {"--solvers", &request->solvers_text, "Whose iterations are counted", shown,
-        into(scaling.solvers, solver_names)},
-       {"--tolerance", &scaling.tolerance, "To this error [g h]", shown, above(0)},
-       {"--max-iterations", &scaling.max_iterations, "At most so many", shown,
-        between(1, most_count)}});
+      {{"--grains", &scaling.grains,
+        "Grains, separated by commas: each the nearest number of copies",
+        between(1, most_count / 10)},
+       {"--threads", &scaling.threads, "Threads of the solver, separated by commas",
+        between(1, 256)},
+       {"--steps", &scaling.steps, "Measured steps", between(1, most_count)},
+       {"--warm-up", &scaling.warm_up, "Steps before them", between(1, most_count)},
+       {"--solvers", into(scaling.solvers, solver_names, "pgs,nncg"),
+        "Whose iterations are counted"},
+       {"--tolerance", &scaling.tolerance, "To this error [g h]", above(0)},
+       {"--max-iterations", &scaling.max_iterations, "At most so many", between(1, most_count)}});
 }
 
 Command accuracy_command() {
-  const auto request = std::make_shared<AccuracyRequest>();
+  const auto request = std::make_shared<BenchRequest>();
   LiveOptions& live = request->live;
   live.duration = 0.01;
-  return measuring(
-      "accuracy", "What a simulated second costs at which error", request, bench_accuracy,
-      {{"--solvers", &request->solvers_text, "Separated by commas", shown,
-        into(live.solvers, parse_solvers)},
-       {"--tolerances", &request->tolerances_text, "Solved to these [g h]; none: not", shown,
-        into(live.tolerances, tolerances_or_none)},
-       {"--iterations", &request->iterations_text, "And with so many iterations in every step",
-        shown, into(request->iterations, counts)},
-       {"--threads", &live.threads, "Of the step and its solver", shown, between(1, 256)},
-       {"--from", &live.start, "Simulated time where all begin [s]", shown, at_least(0)},
-       {"--duration", &live.duration, "Simulated from there [s]", shown, above(0)}});
+  return measuring("accuracy", "What a simulated second costs at which error", request,
+                   bench_accuracy,
+                   {{"--solvers", into(live.solvers, parse_solvers, "nesterov_pgs,nncg,pgs,apgd"),
+                     "Separated by commas"},
+                    {"--tolerances", into(live.tolerances, tolerances_or_none, "1e-2,1e-3"),
+                     "Solved to these [g h]; none: not"},
+                    {"--iterations", &request->iterations,
+                     "And with so many iterations in every step", between(1, most_count)},
+                    {"--threads", &live.threads, "Of the step and its solver", between(1, 256)},
+                    {"--from", &live.start, "Simulated time where all begin [s]", at_least(0)},
+                    {"--duration", &live.duration, "Simulated from there [s]", above(0)}});
 }
 
 Command captured_command() {
-  const auto request = std::make_shared<CapturedRequest>();
-  CompareOptions& captured = request->comparison;
+  const auto request = std::make_shared<BenchRequest>();
+  CompareOptions& captured = request->captured;
   captured.max_seconds = 5.0;
   captured.exact_seconds = 60.0;
-  return {
-      "captured",
-      "Every measure of an answer's error against its cost, on problems of a run",
-      {{"problems", &request->files, "Files, folders, patterns (ballast run --capture)", required},
-       {"--solvers", &request->solvers_text, "Separated by commas", shown,
-        into(captured.solvers, parse_solvers)},
-       {"--tolerances", &request->tolerances_text, "Solved to these [g h]", shown,
-        into(captured.tolerances, parse_tolerances)},
-       {"--starts", &request->starts_text, "cold, warm or cold,warm", shown,
-        into(captured.starts, parse_starts)},
-       {"--max-seconds", &captured.max_seconds, "Of one solve", shown, above(0)},
-       {"--exact-seconds", &captured.exact_seconds,
-        "Spent on a solution at 1e-9 of each problem, from which distances are measured; 0: "
-        "none",
-        shown, at_least(0)},
-       {"--output DIR", &request->output, "Folder of the results", shown},
-       {"--no-plot", &request->plot, "No figure"}},
-      [request] { return bench_captured(*request); }};
+  return {"captured",
+          "Every measure of an answer's error against its cost, on problems of a run",
+          {{"problems", &request->problems, "Files, folders, patterns (ballast run --capture)",
+            required},
+           {"--solvers", into(captured.solvers, parse_solvers, "nesterov_pgs,newton_burst"),
+            "Separated by commas"},
+           {"--tolerances", into(captured.tolerances, parse_tolerances, "1e-1,1e-2,1e-3,1e-4,1e-6"),
+            "Solved to these [g h]"},
+           {"--starts", into(captured.starts, parse_starts, "warm"), "cold, warm or cold,warm"},
+           {"--max-seconds", &captured.max_seconds, "Of one solve", above(0)},
+           {"--exact-seconds", &captured.exact_seconds,
+            "Spent on a solution at 1e-9 of each problem, from which distances are measured; 0: "
+            "none",
+            at_least(0)},
+           {"--output DIR", &request->output, "Folder of the results"},
+           {"--no-plot", &request->plot, "No figure"}},
+          [request] { return bench_captured(*request); }};
 }
 
 Command diff_command() {

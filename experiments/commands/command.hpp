@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +13,10 @@
 #include <vector>
 
 #include "platform/error.hpp"
+
+namespace CLI {
+class Option;
+}
 
 namespace ballast {
 
@@ -26,67 +29,48 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-struct Word;
 /// What holds of a word besides its type. What breaks a rule is exit code 2.
-using Rule = std::function<void(Word&)>;
+using Rule = std::function<void(CLI::Option&)>;
+extern const Rule required;
+Rule between(double low, double high);  ///< both included; NaN is beyond all bounds
+Rule above(double low);
+Rule at_least(double low);
+Rule excludes(const std::string& other);  ///< words further up
+Rule needs(const std::string& other);
+
+/// A text of which something is made before the command acts, given or not. What `use` throws is
+/// said with the word's name.
+struct Parsed {
+  std::string text;
+  std::function<void(const std::string&)> use;
+};
+/// value = parser(text); `text` is the default.
+template <class Value, class Parser>
+Parsed into(Value& value, Parser parser, std::string text = {}) {
+  return {std::move(text), [&value, parser](const std::string& given) { value = parser(given); }};
+}
 
 /// One argument or option.
 struct Word {
   using Value = std::variant<std::string*, std::filesystem::path*, double*, int*, bool*,
-                             std::vector<std::string>*>;
+                             std::vector<std::string>*, std::vector<int>*, Parsed>;
 
   template <class... Rules>
-  Word(std::string name_, Value value_, std::string meaning_, const Rules&... rules)
-      : name(std::move(name_)), value(value_), meaning(std::move(meaning_)) {
-    for (const Rule& rule : std::initializer_list<Rule>{rules...}) rule(*this);
-  }
+  Word(std::string name_, Value value_, std::string meaning_, const Rules&... rules_)
+      : name(std::move(name_)),
+        value(std::move(value_)),
+        meaning(std::move(meaning_)),
+        rules{rules_...} {}
 
   /// "scene": an argument, known by its place. "--output DIR": an option, and what --help calls its
-  /// value. Where the value is a bool, the option is a switch, and "--no-..." switches off.
+  /// value.
   std::string name;
-  /// Keeps the value; what is there before is the default. A list takes all that come.
+  /// Keeps the value; what is there before is the default. A bool is a switch, and "--no-..."
+  /// switches off. A list of texts takes all that come, one of numbers has commas between them.
   Value value;
   std::string meaning;
-
-  bool is_required = false;
-  bool shows_default = false;                  ///< --help says the value that is there before
-  std::optional<std::pair<int, int>> between;  ///< both included; --help says so
-  std::optional<double> above, at_least;       ///< bounds of a number; NaN is beyond all
-  std::vector<std::string> excludes, needs;    ///< words further up
-  /// Makes something of a text, given or not. A std::invalid_argument or Error from it is said with
-  /// the word's name.
-  std::function<void(const std::string& text)> parse;
+  std::vector<Rule> rules;
 };
-
-/// "--output" of "--output DIR".
-std::string option_name(const Word& word);
-
-// The rules, as they stand in the rows of a table of words.
-inline const Rule required = [](Word& word) { word.is_required = true; };
-inline const Rule shown = [](Word& word) { word.shows_default = true; };
-inline Rule between(int low, int high) {
-  return [=](Word& word) { word.between = {low, high}; };
-}
-inline Rule above(double low) {
-  return [=](Word& word) { word.above = low; };
-}
-inline Rule at_least(double low) {
-  return [=](Word& word) { word.at_least = low; };
-}
-inline Rule excludes(const std::string& other) {
-  return [=](Word& word) { word.excludes.push_back(other); };
-}
-inline Rule needs(const std::string& other) {
-  return [=](Word& word) { word.needs.push_back(other); };
-}
-inline Rule parsed(const std::function<void(const std::string&)>& parse) {
-  return [=](Word& word) { word.parse = parse; };
-}
-/// value = parser(text)
-template <class Value, class Parser>
-Rule into(Value& value, Parser parser) {
-  return parsed([&value, parser](const std::string& text) { value = parser(text); });
-}
 
 /// One command of the program.
 struct Command {
@@ -109,8 +93,8 @@ std::string help_text(std::string path);
 /// and an exit code.
 int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err);
 
-/// Carries out an action. An exception becomes its line on `err` and its exit code: UsageError and
-/// UnknownSolver named on the command line 2, MissingSolver 4, everything else 1.
+/// Carries out an action. An exception becomes its line on `err` and its exit code: UsageError 2,
+/// MissingSolver 4, everything else 1.
 ExitCode perform(const Action& action, std::ostream& err);
 
 /// The command line of this process, as a shell reads it.

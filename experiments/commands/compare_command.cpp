@@ -26,39 +26,34 @@
 namespace ballast {
 namespace {
 
-struct CollectOptions {
-  std::filesystem::path output = "results/collection";
-  int largest = 2400;
-};
-
-ExitCode collect(const CollectOptions& options) {
-  require_own_folder(options.output, {"runs", "packings"});
+ExitCode collect(const std::filesystem::path& output, int largest) {
+  require_own_folder(output, {"runs", "packings"});
   InterruptGuard guard;
-  const auto runs = collection_runs(options.largest);
+  const auto runs = collection_runs(largest);
   size_t done = 0;
   const auto told = [&](const CollectedRun& run) {
     std::cout << printed("%3zu/%zu  ", ++done, runs.size()) << run.name << std::endl;
   };
-  const ExitCode code = make_collection(options.output, runs, told);
+  const ExitCode code = make_collection(output, runs, told);
   if (code != ExitCode::ok) return code;
-  std::cout << "made: " << (options.output / "problems" / "manifest.csv").string() << std::endl;
+  std::cout << "made: " << (output / "problems" / "manifest.csv").string() << std::endl;
   return ExitCode::ok;
 }
 
-}  // namespace
-
-Command compare_collect_command() {
-  const auto options = std::make_shared<CollectOptions>();
-  return {"collect",
-          "Makes the collection: 72 captured problems of 60 to 10000 contacts, with a manifest",
-          {{"--output DIR", &options->output, "Where it is made; the same command goes on", shown},
-           {"--largest", &options->largest,
-            "Grains of the largest runs: 25, 80, 200, 600, 1200, 2400 and below", shown,
-            between(25, 2400)}},
-          [options] { return collect(*options); }};
+Command collect_command() {
+  struct Options {
+    std::filesystem::path output = "results/collection";
+    int largest = 2400;
+  };
+  const auto options = std::make_shared<Options>();
+  return {
+      "collect",
+      "Makes the collection: 72 captured problems of 60 to 10000 contacts, with a manifest",
+      {{"--output DIR", &options->output, "Where it is made; the same command goes on"},
+       {"--largest", &options->largest,
+        "Grains of the largest runs: 25, 80, 200, 600, 1200, 2400 and below", between(25, 2400)}},
+      [options] { return collect(options->output, options->largest); }};
 }
-
-namespace {
 
 struct DiffOptions {
   std::filesystem::path before, after;
@@ -103,13 +98,11 @@ ExitCode diff(const DiffOptions& options) {
   const auto common = changes.size() - static_cast<size_t>(counts[Change::only_before]) -
                       static_cast<size_t>(counts[Change::only_after]);
   if (common == 0) throw Error("compare diff: the two have no solve in common");
-  if (counts[Change::lost] + counts[Change::slower] == 0) return ExitCode::ok;
-  std::cerr << "ballast: compare diff: " << counts[Change::lost] << " solves are lost and "
-            << counts[Change::slower] << " slower\n";
-  return ExitCode::failure;
+  if (counts[Change::lost] + counts[Change::slower] > 0)
+    throw Error(printed("compare diff: %d solves are lost and %d slower", counts[Change::lost],
+                        counts[Change::slower]));
+  return ExitCode::ok;
 }
-
-}  // namespace
 
 Command compare_diff_command() {
   const auto options = std::make_shared<DiffOptions>();
@@ -119,12 +112,10 @@ Command compare_diff_command() {
            {"after", &options->after, "Folder of another one, of the same machine", required},
            {"--least", &options->least,
             "Factor by which a median must have changed; also by more than the repeats' spread",
-            shown, at_least(1)},
+            at_least(1)},
            {"--all", &options->shows_all, "Show what is the same, too"}},
           [options] { return diff(*options); }};
 }
-
-namespace {
 
 struct MergeOptions {
   std::vector<std::string> folders;
@@ -141,42 +132,36 @@ ExitCode merge(const MergeOptions& options) {
   return ExitCode::ok;
 }
 
-}  // namespace
-
-Command compare_merge_command() {
+Command merge_command() {
   const auto options = std::make_shared<MergeOptions>();
   return {"merge",
           "Comparisons of several jobs, machines, days as one; ratios within a machine",
           {{"folders", &options->folders, "Folders of comparisons", required},
-           {"--output DIR", &options->output, "Folder of the page and its table", shown}},
+           {"--output DIR", &options->output, "Folder of the page and its table"}},
           [options] { return merge(*options); }};
 }
-
-namespace {
 
 /// The words of the command line, and what is made of them.
 struct CompareRequest {
   LiveOptions live;
   std::vector<std::string> cases, external;
   ExternalLimits program_limits;
-  std::string solvers = "all", tolerances = "1e-4,1e-8", starts = "cold", measure = "natural_map";
   std::filesystem::path output = "results/compare";
   CompareOptions comparison;
   bool report = true, is_quiet = false;
 };
 
 bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
-  if (row.verdict == Verdict::unreadable) {
-    std::cout << printed("%5zu/%zu  %-34.34s unreadable: ", done, count, row.case_name.c_str())
-              << row.note << std::endl;
-    return !InterruptGuard::requested();
-  }
-  std::cout << printed("%5zu/%zu  %-34.34s %-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", done,
-                       count, row.case_name.c_str(), row.solver.c_str(), row.tolerance,
-                       name_of(row.start), name_of(row.verdict), row.seconds(), row.error,
-                       was_there ? "  (was there)" : "",
-                       row.verdict == Verdict::denied ? "  JUDGE DISAGREES" : "")
-            << (std::isnan(row.error) && !row.note.empty() ? "  " + row.note : "") << std::endl;
+  std::cout << printed("%5zu/%zu  %-34.34s ", done, count, row.case_name.c_str());
+  if (row.verdict == Verdict::unreadable)
+    std::cout << "unreadable: " << row.note;
+  else
+    std::cout << printed("%-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", row.solver.c_str(),
+                         row.tolerance, name_of(row.start), name_of(row.verdict), row.seconds(),
+                         row.error, was_there ? "  (was there)" : "",
+                         row.verdict == Verdict::denied ? "  JUDGE DISAGREES" : "")
+              << (std::isnan(row.error) && !row.note.empty() ? "  " + row.note : "");
+  std::cout << std::endl;
   return !InterruptGuard::requested();
 }
 
@@ -184,25 +169,20 @@ std::vector<ComparedSolver> solvers_or_none(const std::string& list) {
   return list == "none" ? std::vector<ComparedSolver>() : parse_solvers(list);
 }
 
-ExitCode interrupted() {
-  std::cerr << "ballast: compare: interrupted; nothing is lost, the same command goes on"
-            << std::endl;
-  return ExitCode::failure;
-}
+constexpr const char* interrupted =
+    "compare: interrupted; nothing is lost, the same command goes on";
 
-/// All cases could be read: ok. Otherwise one line with the reasons.
-ExitCode verdict_on_cases(const std::vector<CompareRow>& rows, size_t cases) {
+/// Throws Error where some cases could not be read: one line with the reasons.
+void require_readable(const std::vector<CompareRow>& rows, size_t cases) {
   std::string reasons;
   size_t count = 0;
   for (const CompareRow& row : rows) {
     if (row.verdict != Verdict::unreadable) continue;
     ++count;
-    reasons += (reasons.empty() ? "" : "; ") + row.note;
+    add_to_list(reasons, row.note);
   }
-  if (count == 0) return ExitCode::ok;
-  std::cerr << "ballast: compare: " << count << " of " << cases
-            << " cases could not be read: " << reasons << std::endl;
-  return ExitCode::failure;
+  if (count > 0)
+    throw Error(printed("compare: %zu of %zu cases could not be read: ", count, cases) + reasons);
 }
 
 /// The closed loop under each backend.
@@ -220,7 +200,7 @@ ExitCode compare_live(const CompareRequest& options) {
     return !InterruptGuard::requested();
   };
   const LiveComparison comparison = run_live(live, told);
-  if (InterruptGuard::requested()) return interrupted();
+  if (InterruptGuard::requested()) throw Error(interrupted);
   Manifest manifest("compare --live " + live.scene, {options.comparison.command}, binary_key());
   manifest.summary("blas", loaded_blas());
   manifest.write(options.output / "manifest.json");
@@ -259,16 +239,17 @@ ExitCode compare(CompareRequest& options) {
     return options.is_quiet ? !InterruptGuard::requested() : show(row, was_there, done, count);
   };
   const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, told);
-  if (InterruptGuard::requested()) return interrupted();
+  if (InterruptGuard::requested()) throw Error(interrupted);
   if (options.report) write_compare_page(options.output, rows);
-  const ExitCode code = verdict_on_cases(rows, cases.size());
-  if (options.is_quiet) return code;
-  std::cout << '\n'
-            << compare_summary(rows) << "\nresults in " << options.output.string() << "\n"
-            << (options.report ? "  compare.html  figures and tables: open it in a browser\n" : "")
-            << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
-            << "  manifest.json program, machine, BLAS, options" << std::endl;
-  return code;
+  if (!options.is_quiet)
+    std::cout << '\n'
+              << compare_summary(rows) << "\nresults in " << options.output.string() << "\n"
+              << (options.report ? "  compare.html  figures and tables: open it in a browser\n"
+                                 : "")
+              << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
+              << "  manifest.json program, machine, BLAS, options" << std::endl;
+  require_readable(rows, cases.size());
+  return ExitCode::ok;
 }
 
 }  // namespace
@@ -282,30 +263,27 @@ Command compare_command() {
       "compare",
       "Backends on identical problems: accuracy against cost, figures, a page",
       {{"cases", &options->cases, "Problem files, folders, patterns, known:..., stress:..."},
-       {"--solvers", &options->solvers,
-        "Names, separated by commas, or all, or none: programs alone", shown,
-        into(comparison.solvers, solvers_or_none)},
+       {"--solvers", into(comparison.solvers, solvers_or_none, "all"),
+        "Names, separated by commas, or all, or none: programs alone"},
        {"--external NAME=COMMAND", &options->external,
         "Also a program that solves, or FILE.toml with a list (docs/manual/external.md)"},
        {"--startup-seconds", &options->program_limits.startup_seconds,
-        "Wall clock that such a program may take beside --max-seconds, to start and read", shown,
+        "Wall clock that such a program may take beside --max-seconds, to start and read",
         at_least(0)},
-       {"--tolerances", &options->tolerances, "Separated by commas", shown,
-        into(comparison.tolerances, parse_tolerances)},
-       {"--starts", &options->starts, "cold, warm or cold,warm; warm where a case has a warm start",
-        shown, into(comparison.starts, parse_starts)},
-       {"--measure", &options->measure, "natural_map or fclib", shown,
-        into(comparison.measure, measure_of)},
-       {"--repeats", &comparison.repeats, "Interleaved; tables show the median", shown,
-        at_least(1)},
+       {"--tolerances", into(comparison.tolerances, parse_tolerances, "1e-4,1e-8"),
+        "Separated by commas"},
+       {"--starts", into(comparison.starts, parse_starts, "cold"),
+        "cold, warm or cold,warm; warm where a case has a warm start"},
+       {"--measure", into(comparison.measure, measure_of, "natural_map"), "natural_map or fclib"},
+       {"--repeats", &comparison.repeats, "Interleaved; tables show the median", at_least(1)},
        {"--max-seconds", &comparison.max_seconds, "Wall clock of one solve, prepare included",
-        shown, above(0)},
+        above(0)},
        {"--exact-seconds", &comparison.exact_seconds,
         "Spent on a solution at 1e-9 of each case, from which distances are measured; 0: none",
-        shown, at_least(0)},
+        at_least(0)},
        {"--memory", &comparison.limits.memory_MB, "Address space of one child in MB; 0: no limit",
-        shown, at_least(0)},
-       {"--output DIR", &options->output, "Folder of the results", shown},
+        at_least(0)},
+       {"--output DIR", &options->output, "Folder of the results"},
        {"--no-report", &options->report, "No figures and no page"},
        {"--quiet", &options->is_quiet, "Says nothing but failures"},
        {"--live SCENE", &live.scene,
@@ -313,14 +291,12 @@ Command compare_command() {
        {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value"},
        {"--from", &live.start,
         "Simulated time up to which the scene's own solver goes, once for all [s]", at_least(0)},
-       {"--duration", &live.duration, "Simulated from there under each backend [s]", shown,
-        above(0)},
-       {"--trajectory-seconds", &live.trajectory_seconds, "Wall clock of one trajectory", shown,
-        above(0)},
+       {"--duration", &live.duration, "Simulated from there under each backend [s]", above(0)},
+       {"--trajectory-seconds", &live.trajectory_seconds, "Wall clock of one trajectory", above(0)},
        {"--packing-cache DIR", &live.packing_cache,
         "Where deposited packings are kept (<output>/packings)"}},
       [options] { return compare(*options); },
-      {compare_diff_command(), compare_merge_command(), compare_collect_command()}};
+      {compare_diff_command(), merge_command(), collect_command()}};
 }
 
 }  // namespace ballast

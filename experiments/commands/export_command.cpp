@@ -1,4 +1,4 @@
-// States of a run as files for other programs.
+// States of a run as files for other programs and as pictures; things in 3D as a page.
 
 #include <algorithm>
 #include <cmath>
@@ -12,30 +12,30 @@
 #include "experiments/record/checkpoint.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "experiments/view/still.hpp"
+#include "experiments/view/view_page.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/program.hpp"
 #include "platform/text.hpp"
+#include "problems/files/captured_problem.hpp"
+#include "problems/files/problem_file.hpp"
+#include "problems/scene/scene_file.hpp"
+#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ExportOptions {
-  std::filesystem::path source, output;
-  std::optional<double> time;  ///< [s]
+  fs::path source, output;
+  double time = not_known;  ///< [s]
   bool all = false;
-  std::string time_word, view_word, frames_word;
   std::optional<std::pair<size_t, size_t>> frames;  ///< of pictures: numbers of the first and last
   StillOptions still;
 };
-
-std::optional<double> parsed_time(const std::string& word) {
-  if (word.empty()) return std::nullopt;
-  const std::optional<double> time = parsed_number(word);
-  if (!time || !std::isfinite(*time))
-    throw std::invalid_argument("'" + word + "' is no time: expected a finite number [s]");
-  return time;
-}
 
 /// "35" or "20:40".
 std::optional<std::pair<size_t, size_t>> parsed_frames(const std::string& word) {
@@ -47,19 +47,16 @@ std::optional<std::pair<size_t, size_t>> parsed_frames(const std::string& word) 
   return std::pair(static_cast<size_t>(*first), static_cast<size_t>(*last));
 }
 
-std::vector<MotionState> frames_of(const std::filesystem::path& folder) {
+std::vector<MotionState> frames_of(const fs::path& folder) {
   std::vector<MotionState> frames = read_poses(folder);
   if (frames.empty()) throw Error(folder.string() + ": no poses are stored there");
   return frames;
 }
 
-/// The stored frame nearest in time.
-size_t frame_at(const std::vector<MotionState>& frames, double time) {
-  const auto nearest = std::min_element(frames.begin(), frames.end(),
-                                        [&](const MotionState& a, const MotionState& b) {
-                                          return std::abs(a.time - time) < std::abs(b.time - time);
-                                        });
-  return static_cast<size_t>(nearest - frames.begin());
+ViewData run_view(const fs::path& folder) {
+  std::optional<ViewData> view = view_of_run(read_run_data(folder));
+  if (!view) throw Error(folder.string() + ": no poses are stored there");
+  return std::move(*view);
 }
 
 void require_bodies(const ExportOptions& options, const MechanicalSystem& system, size_t bodies) {
@@ -84,20 +81,20 @@ ExitCode export_all(const ExportOptions& options, const MechanicalSystem& system
 
 /// Stored frames drawn without a display: one, or a picture that moves.
 ExitCode export_picture(const ExportOptions& options) {
-  const std::optional<ViewData> view = view_of_run(read_run_data(options.source));
-  if (!view) throw Error(options.source.string() + ": no poses are stored there");
-  if (options.still.with_chains && !view->contacts)
+  const ViewData view = run_view(options.source);
+  if (options.still.with_chains && !view.contacts)
     throw Error(options.source.string() +
                 ": no forces are stored there (--set record.forces=true)");
-  const std::vector<MotionState>& frames = view->frames;
-  const size_t one = frame_at(frames, options.time.value_or(frames.back().time));
+  const std::vector<MotionState>& frames = view.frames;
+  const size_t one =
+      std::isnan(options.time) ? frames.size() - 1 : nearest_frame(frames, options.time);
   const auto [first, last] = options.frames.value_or(std::pair(one, one));
   if (last >= frames.size())
     throw Error(options.source.string() + ": has frames 0 to " + std::to_string(frames.size() - 1) +
-                ", not --frames " + options.frames_word);
+                printed(", not --frames %zu:%zu", first, last));
   std::vector<size_t> chosen;
   for (size_t frame = first; frame <= last; ++frame) chosen.push_back(frame);
-  write_whole_file(options.output, still_png(*view, chosen, options.still));
+  write_whole_file(options.output, still_png(view, chosen, options.still));
   std::cout << options.output.string() << ": frames " << first << " to " << last << ", from "
             << frames[first].time << " s to " << frames[last].time << " s\n";
   return ExitCode::ok;
@@ -108,21 +105,76 @@ ExitCode export_run(const ExportOptions& options) {
   if (!is_there(options.source))
     throw Error(options.source.string() + ": no such run folder or checkpoint");
   const bool from_folder = is_folder(options.source);
-  if (!from_folder && (options.time || options.all))
+  const bool has_time = !std::isnan(options.time);
+  if (!from_folder && (has_time || options.all))
     throw Error(options.source.string() + ": a checkpoint is one state: give the run's folder");
-  const std::filesystem::path folder =
-      from_folder ? options.source : std::filesystem::absolute(options.source).parent_path();
+  const fs::path folder = from_folder ? options.source : fs::absolute(options.source).parent_path();
   MotionState state;
   const MechanicalSystem system = recorded_system(folder, state);
   if (options.all) return export_all(options, system);
   if (!from_folder)
     state = read_checkpoint(options.source).state;
-  else if (options.time)
-    state = frames_of(folder)[frame_at(frames_of(folder), *options.time)];
+  else if (has_time)
+    state = frames_of(folder)[nearest_frame(frames_of(folder), options.time)];
   require_bodies(options, system, state.pose.size());
   export_state(system, state, options.output);
   std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step
             << '\n';
+  return ExitCode::ok;
+}
+
+struct ViewOptions {
+  std::string thing;
+  fs::path output, packing_cache = "results/packings";
+  std::vector<std::string> overrides;
+  ErrorQuestion question;
+  int iterations = 1000;
+  bool open = false;
+};
+
+/// 1, 3, 10, 30, ... up to the most.
+std::vector<int> budgets_up_to(int most) {
+  std::vector<int> budgets;
+  for (int power = 1; power < most; power *= 10)
+    for (const int budget : {power, 3 * power})
+      if (budget < most) budgets.push_back(budget);
+  budgets.push_back(most);
+  return budgets;
+}
+
+ViewData view_of(ViewOptions options) {
+  const fs::path path = options.thing;
+  const std::string suffix = path.extension().string();
+  if (RunFolder(path).has_run()) return run_view(path);
+  if (suffix == ".obj" || suffix == ".stl") return view_of_mesh(path);
+  if (is_problem_file(path)) {
+    if (is_file(path) && !is_captured(path))
+      throw Error(path.string() +
+                  ": does not say where its contacts are, so there is nothing to show in 3D; "
+                  "problems of ballast run --capture do");
+    for (const std::string& name : options.question.backends) find_solver(name);
+    options.question.iterations = budgets_up_to(options.iterations);
+    return view_of_problem(path, options.question);
+  }
+  return view_of_scene(read_scene(find_scene(options.thing), options.overrides),
+                       options.packing_cache);
+}
+
+/// Beside what is there already: in a run's folder, beside a problem; else here.
+fs::path page_of(const ViewOptions& options) {
+  if (!options.output.empty()) return options.output;
+  const fs::path path = options.thing;
+  if (is_folder(path)) return path / "view.html";
+  const std::string name = path.stem().string() + ".view.html";
+  return is_problem_file(path) ? path.parent_path() / name : fs::path(name);
+}
+
+ExitCode write_view(const ViewOptions& options) {
+  const fs::path page = page_of(options);
+  write_view_page(view_of(options), page);
+  std::cout << page.string() << std::endl;
+  if (options.open && !run_program("xdg-open", {fs::absolute(page).string()}, 20.0).succeeded())
+    throw Error("xdg-open: cannot open " + page.string() + ": open it in a browser");
   return ExitCode::ok;
 }
 
@@ -136,22 +188,46 @@ Command export_command() {
       {{"source", &options->source, "A run's folder, or a checkpoint in it", required},
        {"--output FILE", &options->output,
         "The file to write: .obj, grains as meshes; .vtp, for ParaView; .png, a picture", required},
-       {"--time S", &options->time_word, "The stored frame nearest to this time [s]",
-        into(options->time, parsed_time)},
-       {"--frames N", &options->frames_word,
-        ".png: number of the stored frame (the last); FIRST:LAST: a picture that moves",
-        into(options->frames, parsed_frames)},
-       {"--view FROM", &options->view_word, ".png: home, x, -x, y, -y, z, or YAW,PITCH in degrees",
-        parsed([options](const std::string& word) { set_view(options->still, word); })},
+       {"--time S", &options->time, "The stored frame nearest to this time [s]", at_least(0)},
+       {"--frames N", into(options->frames, parsed_frames),
+        ".png: number of the stored frame (the last); FIRST:LAST: a picture that moves"},
+       {"--view FROM",
+        Parsed{"home", [options](const std::string& word) { set_view(options->still, word); }},
+        ".png: home, x, -x, y, -y, z, or YAW,PITCH in degrees"},
        {"--chains", &options->still.with_chains,
         ".png: force chains, bodies as glass; needs a run with record.forces"},
-       {"--width PIXELS", &options->still.width, "png", between(16, 8000), shown},
-       {"--height PIXELS", &options->still.height, "png", between(16, 8000), shown},
+       {"--width PIXELS", &options->still.width, "png", between(16, 8000)},
+       {"--height PIXELS", &options->still.height, "png", between(16, 8000)},
        {"--all", &options->all,
         "Every stored frame: FILE with _<step> before its suffix; with .vtp also the .pvd that "
         "ParaView opens as one series, and the contacts of a run with record.forces",
         excludes("--time")}},
       [options] { return export_run(*options); }};
+}
+
+Command view_command() {
+  const auto options = std::make_shared<ViewOptions>();
+  return {
+      "view",
+      "Writes a page that shows something in 3D, and says its path",
+      {{"thing", &options->thing,
+        "A run's folder, a captured problem (.hdf5), a scene (name or TOML file), or a mesh (.obj, "
+        ".stl)",
+        required},
+       {"--output FILE", &options->output,
+        "The page (view.html in a run's folder, NAME.view.html else)"},
+       {"--open", &options->open, "Opens it in the browser (xdg-open)"},
+       {"--solver NAME", &options->question.backends,
+        "Of a captured problem: the backends whose errors are shown"},
+       {"--iterations N", &options->iterations,
+        "Of a captured problem: the largest budget; 1, 3, 10, 30, ... below it are shown too",
+        between(1, 100000)},
+       {"--warm", &options->question.is_warm,
+        "Of a captured problem: begin where the run did, not at zero"},
+       {"--set KEY=VALUE", &options->overrides, "Of a scene: dotted.key=value"},
+       {"--packing-cache DIR", &options->packing_cache,
+        "Of a scene with grains: where its packing may be"}},
+      [options] { return write_view(*options); }};
 }
 
 }  // namespace ballast

@@ -28,7 +28,7 @@ namespace {
 
 struct SolveOptions {
   std::vector<std::string> files;
-  std::string solver = "pgs", external;
+  std::string solver;  ///< its name
   MakeSolver make;
   double tolerance = 1e-8;
   bool absolute = false;
@@ -43,46 +43,39 @@ struct SolvedFile {
   std::string file;
   int contacts = 0, rows = 0;
   double tolerance = 0.0;  ///< [m/s]
-  SolverRun run;
+  SolverRun run = {};
   /// Why nothing was solved, and what is wrong: "unreadable", "unsupported"; of a program
   /// "out_of_time", "crashed". Empty: it was.
-  std::string refused, why;
-  std::string words;  ///< what came of it (explained())
+  std::string refused = {}, why = {};
+  std::string words = {};  ///< what came of it (explained())
 };
 
-/// One number of the table: its heading, its JSON name, where it is.
+/// One number of the table: its heading (the command's help says what it means), its JSON name.
 struct ShownMeasure {
   const char* heading;
   const char* name;
-  std::variant<double ContactError::*, double SolverRun::*, double Solved::*> member;
-
-  double value(const SolvedFile& s) const {
-    if (const auto* error = std::get_if<double ContactError::*>(&member))
-      return s.run.error.**error;
-    if (const auto* solved = std::get_if<double Solved::*>(&member)) return s.run.solved.**solved;
-    return s.run.*std::get<double SolverRun::*>(member);
-  }
+  double value;
 };
 
-// What the headings mean is said in the command's help.
-const ShownMeasure measures[] = {
-    {"rms", "natural_map_rms", &ContactError::natural_map_rms},
-    {"max", "natural_map_max", &ContactError::natural_map_max},
-    {"scale", "velocity_scale", &ContactError::velocity_scale},
-    {"fclib", "fclib", &ContactError::fclib},
-    {"sink_rms", "approach_rms", &ContactError::approach_rms},
-    {"cone_rms", "cone_rms", &ContactError::cone_rms},
-    {"compl_rms", "complementarity_rms", &ContactError::complementarity_rms},
-    {"cone", "cone_violation", &ContactError::cone_violation},
-    {"min_uN", "min_normal_velocity", &ContactError::min_normal_velocity},
-    {"compl", "complementarity", &ContactError::complementarity},
-    {"power", "power", &ContactError::power},
-    {"momentum", "momentum_residual", &ContactError::momentum_residual},
-    {"own", "own_residual", &Solved::own_residual},
-    {"prepare_s", "prepare_seconds", &SolverRun::prepare_seconds},
-    {"solve_s", "solve_seconds", &SolverRun::solve_seconds},
-    {"startup_s", "startup_seconds", &SolverRun::startup_seconds},
-};
+std::vector<ShownMeasure> measures_of(const SolverRun& run) {
+  const ContactError& error = run.error;
+  return {{"rms", "natural_map_rms", error.natural_map_rms},
+          {"max", "natural_map_max", error.natural_map_max},
+          {"scale", "velocity_scale", error.velocity_scale},
+          {"fclib", "fclib", error.fclib},
+          {"sink_rms", "approach_rms", error.approach_rms},
+          {"cone_rms", "cone_rms", error.cone_rms},
+          {"compl_rms", "complementarity_rms", error.complementarity_rms},
+          {"cone", "cone_violation", error.cone_violation},
+          {"min_uN", "min_normal_velocity", error.min_normal_velocity},
+          {"compl", "complementarity", error.complementarity},
+          {"power", "power", error.power},
+          {"momentum", "momentum_residual", error.momentum_residual},
+          {"own", "own_residual", run.solved.own_residual},
+          {"prepare_s", "prepare_seconds", run.prepare_seconds},
+          {"solve_s", "solve_seconds", run.solve_seconds},
+          {"startup_s", "startup_seconds", run.startup_seconds}};
+}
 
 /// Where the answer to a problem is: the path itself if that is an HDF5 file, which holds one.
 std::filesystem::path answer_of(const std::string& file, const std::filesystem::path& where) {
@@ -100,7 +93,8 @@ void keep_answer(const FrictionProblem& problem, const SolvedFile& solved,
                 {"solver", options.solver},
                 {"reason", name_of(solved.run.solved.reason)},
                 {"verdict", name_of(solved.run.verdict)}}};
-  for (const ShownMeasure& m : measures) stored.numbers.emplace_back(m.name, m.value(solved));
+  for (const ShownMeasure& m : measures_of(solved.run))
+    stored.numbers.emplace_back(m.name, m.value);
   const std::filesystem::path file = answer_of(solved.file, options.output);
   std::error_code error;
   if (std::filesystem::equivalent(file, solved.file, error))
@@ -111,11 +105,10 @@ void keep_answer(const FrictionProblem& problem, const SolvedFile& solved,
 
 SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner) {
   const FrictionProblem problem = read_problem(file);
-  SolvedFile solved;
-  solved.file = file;
-  solved.contacts = problem.contact_count();
-  solved.rows = problem.row_count();
-  solved.tolerance = options.tolerance;
+  SolvedFile solved{.file = file,
+                    .contacts = problem.contact_count(),
+                    .rows = problem.row_count(),
+                    .tolerance = options.tolerance};
   // a tolerance is relative to the problem's own velocities unless it is in m/s
   if (!options.absolute) {
     problem.validate();
@@ -137,11 +130,7 @@ SolvedFile solved_or_refused(const std::string& file, const SolveOptions& option
                              SolverRunner& runner) {
   const auto refused = [&](const char* how, std::string why) {
     if (why.find(file) == std::string::npos) why = file + ": " + why;
-    SolvedFile row;
-    row.file = file;
-    row.refused = how;
-    row.why = std::move(why);
-    return row;
+    return SolvedFile{.file = file, .refused = how, .why = std::move(why)};
   };
   try {
     return solve_file(file, options, runner);
@@ -157,7 +146,7 @@ SolvedFile solved_or_refused(const std::string& file, const SolveOptions& option
 void print_heading(int width) {
   std::string line = printed("%-*s%9s%8s  %-18s%8s%13s", width, "problem", "contacts", "rows",
                              "stopped", "iter", "verdict");
-  for (const ShownMeasure& m : measures) line += printed("%10s", m.heading);
+  for (const ShownMeasure& m : measures_of({})) line += printed("%10s", m.heading);
   std::cout << line << printed("%8s\n", "worst");
 }
 
@@ -171,7 +160,7 @@ void print_row(const SolvedFile& s, int width) {
   std::string line =
       printed("%-*s%9d%8d  %-18s%8d%13s", width, name.c_str(), s.contacts, s.rows,
               name_of(s.run.solved.reason), s.run.solved.iterations, name_of(s.run.verdict));
-  for (const ShownMeasure& m : measures) line += printed("%10.2e", m.value(s));
+  for (const ShownMeasure& m : measures_of(s.run)) line += printed("%10.2e", m.value);
   std::cout << line << printed("%8d", s.run.error.worst_contact) << std::endl;
 }
 
@@ -194,7 +183,7 @@ nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options)
                              {"iterations", s.run.solved.iterations},
                              {"worst_contact", s.run.error.worst_contact},
                              {"finite", s.run.error.finite}};
-  for (const ShownMeasure& m : measures) row[m.name] = m.value(s);
+  for (const ShownMeasure& m : measures_of(s.run)) row[m.name] = m.value;
   return row;
 }
 
@@ -217,23 +206,30 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
   return only_time ? ExitCode::time_limit : ExitCode::failure;
 }
 
-/// How the solver is made that was asked for.
-MakeSolver maker_of(SolveOptions& options) {
-  if (options.external.empty()) return [name = options.solver] { return make_solver(name); };
-  const std::vector<ComparedSolver> programs =
-      external_solvers({options.external}, {.memory_MB = 0.0});
-  if (programs.size() != 1)
-    throw UsageError("solve: --external: expected one program, there are " +
-                     std::to_string(programs.size()));
-  options.solver = programs[0].name;
-  return programs[0].make;
+/// One of Ballast's. Throws UnknownSolver, MissingSolver.
+MakeSolver maker_of(const std::string& name) {
+  make_solver(name);
+  return [name] { return make_solver(name); };
 }
 
-ExitCode solve(SolveOptions& options) {
+void use_backend(SolveOptions& options, const std::string& name) {
+  options.make = maker_of(name);
+  options.solver = name;
+}
+
+/// A program; empty: none. Throws std::invalid_argument.
+void use_program(SolveOptions& options, const std::string& word) {
+  if (word.empty()) return;
+  const std::vector<ComparedSolver> programs = external_solvers({word}, {.memory_MB = 0.0});
+  if (programs.size() != 1)
+    throw std::invalid_argument("expected one program, there are " +
+                                std::to_string(programs.size()));
+  options.solver = programs[0].name;
+  options.make = programs[0].make;
+}
+
+ExitCode solve(const SolveOptions& options) {
   restart_with_one_algebra_thread();
-  options.make = maker_of(options);
-  if (std::isinf(options.tolerance))
-    throw UsageError("solve: --tolerance: expected a finite number");
   for (const std::filesystem::path& where : {options.output, options.start})
     if (options.files.size() > 1 && answer_of("", where) == where && !where.empty())
       throw UsageError("solve: " + where.string() +
@@ -257,49 +253,20 @@ ExitCode solve(SolveOptions& options) {
   return verdict(solved);
 }
 
-}  // namespace
-
-Command solve_command() {
-  const auto options = std::make_shared<SolveOptions>();
-  return {
-      "solve",
-      "Solves stored problems and prints every measure of their errors",
-      {{"files", &options->files, "Problems: FCLIB .hdf5, Siconos .dat", required},
-       {"--solver", &options->solver, "As listed by ballast solvers", shown,
-        parsed([](const std::string& name) { make_solver(name); })},
-       {"--external NAME=COMMAND", &options->external,
-        "Instead: a program that solves (docs/manual/external.md)", excludes("--solver"),
-        parsed([](const std::string& text) {
-          if (!text.empty()) external_solvers({text}, {});
-        })},
-       {"--tolerance", &options->tolerance, "Relative to the velocity scale", shown, at_least(0)},
-       {"--absolute", &options->absolute, "The tolerance is in m/s"},
-       {"--max-iterations", &options->max_iterations, "Sweeps, Newton steps, ...", shown,
-        at_least(1)},
-       {"--max-seconds", &options->max_seconds, "Wall clock per problem", above(0)},
-       {"--output PATH", &options->output,
-        "Keep r, u and the measures: a file .hdf5, or a folder with one for each problem"},
-       {"--start PATH", &options->start, "Begin with the r of such a file or folder"},
-       {"--json", &options->json, "Rows as JSON instead of a table"}},
-      [options] { return solve(*options); }};
-}
-
-namespace {
-
 struct AnswerOptions {
   std::filesystem::path problem, answer;
-  std::string solver = "auto";
+  MakeSolver make;
   bool serves = false;
 };
 
 /// What the request asks for, by one solver; the answer's clock runs while that works.
-ExternalAnswer answer_to(const ExternalRequest& request, const std::string& name) {
+ExternalAnswer answer_to(const ExternalRequest& request, const MakeSolver& make) {
   Budget budget{request.tolerance, request.max_iterations, request.max_seconds, true};
   std::optional<FclibStop> fclib;
   if (request.fclib_tolerance > 0.0)
     budget.fclib = &fclib.emplace(request.problem, request.fclib_tolerance);
   ExternalAnswer answer;
-  const auto solver = make_solver(name);
+  const auto solver = make();
   try {
     SolverRun run = SolverRunner().run(*solver, request.problem, request.start, budget);
     answer.reason = run.solved.reason;
@@ -316,9 +283,9 @@ ExternalAnswer answer_to(const ExternalRequest& request, const std::string& name
 }
 
 void answer_file(const std::filesystem::path& problem, const std::filesystem::path& answer,
-                 const std::string& solver) {
+                 const MakeSolver& make) {
   const ExternalRequest request = read_request(problem);
-  write_answer(answer, request, answer_to(request, solver));
+  write_answer(answer, request, answer_to(request, make));
 }
 
 /// Until standard input ends.
@@ -328,7 +295,7 @@ ExitCode serve(const AnswerOptions& options) {
     try {
       const std::vector<std::string> files = split(line, '\t');
       if (files.size() != 2) throw std::invalid_argument("expected PROBLEM<tab>ANSWER");
-      answer_file(files[0], files[1], options.solver);
+      answer_file(files[0], files[1], options.make);
       std::cout << "done" << std::endl;
     } catch (const std::exception& error) {
       std::cout << "failed: " << error.what() << std::endl;
@@ -341,11 +308,33 @@ ExitCode answer(const AnswerOptions& options) {
   if (options.serves != options.problem.empty() || options.serves != options.answer.empty())
     throw UsageError("answer: expected PROBLEM and ANSWER, or --serve");
   if (options.serves) return serve(options);
-  answer_file(options.problem, options.answer, options.solver);
+  answer_file(options.problem, options.answer, options.make);
   return ExitCode::ok;
 }
 
 }  // namespace
+
+Command solve_command() {
+  const auto options = std::make_shared<SolveOptions>();
+  return {"solve",
+          "Solves stored problems and prints every measure of their errors",
+          {{"files", &options->files, "Problems: FCLIB .hdf5, Siconos .dat", required},
+           {"--solver",
+            Parsed{"pgs", [options](const std::string& name) { use_backend(*options, name); }},
+            "As listed by ballast solvers"},
+           {"--external NAME=COMMAND",
+            Parsed{"", [options](const std::string& word) { use_program(*options, word); }},
+            "Instead: a program that solves (docs/manual/external.md)", excludes("--solver")},
+           {"--tolerance", &options->tolerance, "Relative to the velocity scale", at_least(0)},
+           {"--absolute", &options->absolute, "The tolerance is in m/s"},
+           {"--max-iterations", &options->max_iterations, "Sweeps, Newton steps, ...", at_least(1)},
+           {"--max-seconds", &options->max_seconds, "Wall clock per problem", above(0)},
+           {"--output PATH", &options->output,
+            "Keep r, u and the measures: a file .hdf5, or a folder with one for each problem"},
+           {"--start PATH", &options->start, "Begin with the r of such a file or folder"},
+           {"--json", &options->json, "Rows as JSON instead of a table"}},
+          [options] { return solve(*options); }};
+}
 
 Command answer_command() {
   const auto options = std::make_shared<AnswerOptions>();
@@ -354,8 +343,7 @@ Command answer_command() {
           {{"problem", &options->problem, "The request's file"},
            {"answer", &options->answer, "The file to be written"},
            {"--serve", &options->serves, "Requests as lines PROBLEM<tab>ANSWER on standard input"},
-           {"--solver", &options->solver, "As listed by ballast solvers", shown,
-            parsed([](const std::string& name) { make_solver(name); })}},
+           {"--solver", into(options->make, maker_of, "auto"), "As listed by ballast solvers"}},
           [options] { return answer(*options); }};
 }
 

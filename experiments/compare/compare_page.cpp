@@ -115,7 +115,7 @@ page::Text lede(std::span<const CompareRow> rows) {
 
 /// What a comparison noted of its options in the manifest.
 page::Table options_table(const RunData& data) {
-  page::Table table = page::facts_table();
+  page::Table table{.is_facts = true};
   if (const auto summary = data.manifest().find("summary"); summary != data.manifest().end())
     for (const auto& [name, value] : summary->items())
       table.rows.push_back({name, value.is_number()   ? page::exact(value.get<double>())

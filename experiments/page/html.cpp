@@ -137,6 +137,12 @@ Json picture_json(const Figure& figure) {
   return {{"name", figure.name}, {"title", figure.title}, {"panels", panels}};
 }
 
+/// JSON in which no "<" can end its element or begin a comment there.
+std::string for_script(std::string json) {
+  replace_all(json, "<", "\\u003c");
+  return json;
+}
+
 /// The page's own data, and the curves of its figures as "pictures".
 std::string data_of(const Page& page) {
   Json data = page.answers.data.empty() ? Json::object() : Json::parse(page.answers.data);
@@ -147,11 +153,7 @@ std::string data_of(const Page& page) {
         if (const auto* picture = std::get_if<Picture>(&block))
           pictures.push_back(picture_json(picture->plot));
   }
-  // no "<" can end the element or begin a comment in it
-  std::string json;
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
-    json += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  return json;
+  return for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 /// The modules in the order in which they build upon each other.
@@ -160,16 +162,10 @@ constexpr std::array replay_modules = {
     "shades.js", "marks.js",  "plots.js", "panel.js",  "errors.js", "input.js", "replay.js"};
 
 std::string replay_script() {
-  std::string code = "(() => {\n\"use strict\";\n" + answers_file("choice.js");
+  std::string code =
+      "(() => {\n\"use strict\";\n" + answers_file("elements.js") + answers_file("choice.js");
   for (const char* name : replay_modules) code += replay_file(name);
   return code + "})();\n";
-}
-
-/// Inside a script element only "</" could end it: "<\/" is the same in JSON.
-std::string for_script(std::string json) {
-  for (size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3)
-    json.insert(at + 1, 1, '\\');
-  return json;
 }
 
 /// Tables of more columns may be wider than the text.
@@ -200,13 +196,6 @@ std::vector<Tag> tags_of(const Span& span) {
   return result;
 }
 
-std::string with_line_breaks(const std::string& text) {
-  std::string result;
-  for (const char c : escaped_html(text))
-    result += c == '\n' ? std::string("<br>") : std::string(1, c);
-  return result;
-}
-
 std::string row_of(const Table& table, const std::vector<Text>& cells, const std::string& tag) {
   std::string html = "<tr>";
   for (size_t c = 0; c < cells.size(); ++c) {
@@ -227,13 +216,6 @@ std::string items_of(const std::vector<Text>& items) {
   return html + "</ul>";
 }
 
-template <class Writes>
-std::string gathered(const Writes& writes) {
-  std::string text;
-  writes([&text](std::string_view piece) { text += piece; });
-  return text;
-}
-
 /// One kind of block after the other.
 struct HtmlBlocks {
   std::string operator()(const Text& text) const { return "<p>" + html_of(text) + "</p>\n"; }
@@ -252,10 +234,6 @@ struct HtmlBlocks {
     return html + "</tbody></table></div>\n";
   }
   std::string operator()(const Picture& picture) const {
-    if (picture.is_linked)
-      return "<p class=\"linked\"><a href=\"" + std::string(picture_folder) + '/' +
-             escaped_html(picture.plot.name) + ".svg\">" + escaped_html(picture.plot.title) +
-             "</a></p>\n";
     std::string html = "<figure id=\"" + escaped_html(picture.plot.name) + "\">\n" +
                        inline_svg(picture.svg, picture.plot.name, picture.plot.title) +
                        "<figcaption>";
@@ -269,14 +247,27 @@ struct HtmlBlocks {
            items_of(notices.items) + "</div>\n";
   }
   std::string operator()(const Listing& listing) const {
-    return "<pre>" + escaped_html(listing.text) + "</pre>\n";
-  }
-  std::string operator()(const Folded& folded) const {
-    return "<details><summary>" + html_of(folded.heading) + "</summary>\n<pre>" +
-           escaped_html(folded.text) + "</pre></details>\n";
+    const std::string box = "<pre>" + escaped_html(listing.text) + "</pre>";
+    if (listing.heading.empty()) return box + '\n';
+    return "<details><summary>" + html_of(listing.heading) + "</summary>\n" + box + "</details>\n";
   }
   std::string operator()(const Replay& replay) const {
-    return gathered([&](const Write& write) { write_replay(replay, write); });
+    std::string html = "<figure class=\"replay\" id=\"replay\">\n<style>\n" +
+                       replay_file("replay.css") + "</style>\n<div id=\"replay-stage\">";
+    if (!replay.still.empty())
+      html += "<img alt=\"The bodies in 3D: a still picture\" src=\"data:image/png;base64," +
+              base64(replay.still) + "\">";
+    html +=
+        "</div>\n<p id=\"replay-sentence\">This picture moves in a browser with WebGL 2 and "
+        "scripts.</p>\n";
+    if (!replay.caption.empty())
+      html += "<figcaption>" + html_of(replay.caption) + "</figcaption>\n";
+    html += "<script type=\"application/json\" id=\"replay-head\">" + for_script(replay.head) +
+            "</script>\n";
+    for (const auto& [name, bytes] : replay.parts)
+      html += "<script type=\"text/plain\" id=\"replay-" + name + "\">" +
+              base64(deflated(bytes, 9)) + "</script>\n";
+    return html + "<script>\n" + replay_script() + "</script>\n</figure>\n";
   }
 };
 
@@ -287,33 +278,21 @@ std::string header_of(const Page& page) {
   return html + "</header>\n";
 }
 
-void write_section(const Section& section, const Write& write) {
-  if (section.is_empty()) return;
-  write("<section id=\"" + escaped_html(section.id) + "\">\n<h2>" + html_of(section.heading) +
-        "</h2>\n");
-  for (const Block& block : section.blocks) {
-    // a replay has megabytes
-    if (const auto* replay = std::get_if<Replay>(&block); replay && !is_empty(block))
-      write_replay(*replay, write);
-    else
-      write(html_of(block));
-  }
-  write("</section>\n");
+std::string section_html(const Section& section) {
+  if (section.is_empty()) return {};
+  std::string html = "<section id=\"" + escaped_html(section.id) + "\">\n<h2>" +
+                     html_of(section.heading) + "</h2>\n";
+  for (const Block& block : section.blocks) html += html_of(block);
+  return html + "</section>\n";
 }
 
 }  // namespace
 
 std::string escaped_html(std::string_view text) {
-  static const std::map<char, const char*> entities = {
-      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
-  std::string html;
-  for (const char c : clean_utf8(text)) {
-    const auto entity = entities.find(c);
-    if (entity == entities.end())
-      html += c;
-    else
-      html += entity->second;
-  }
+  std::string html = clean_utf8(text);
+  for (const auto& [character, entity] :
+       {std::pair("&", "&amp;"), {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}})
+    replace_all(html, character, entity);
   return html;
 }
 
@@ -332,7 +311,9 @@ std::string html_of(const Text& text) {
       html += tags[k].open;
       open.push_back(tags[k]);
     }
-    html += with_line_breaks(span.text);
+    std::string words = escaped_html(span.text);
+    replace_all(words, "\n", "<br>");
+    html += words;
   }
   close(0);
   return html;
@@ -343,34 +324,27 @@ std::string html_of(const Block& block) {
   return is_empty(block) && !is_subheading ? std::string() : std::visit(HtmlBlocks{}, block);
 }
 
-void write_html(const Page& page, const Write& write) {
-  write(
+std::string html_of(const Page& page) {
+  std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       escaped_html(page.title) + "</title>\n<style>\n" + style_sheet() + palette_rules() +
-      "</style>\n</head>\n<body>\n<main>\n" + header_of(page) + html_of(Block(page.notices)));
-  for (const Section& section : page.sections) write_section(section, write);
+      "</style>\n</head>\n<body>\n<main>\n" + header_of(page) + html_of(Block(page.notices));
+  for (const Section& section : page.sections) html += section_html(section);
   if (page.answers.are_given && !can_answer())
-    write("<p class=\"note\">" + html_of(words("answers.missing")) + "</p>\n");
-  if (!page.end.empty()) write("<footer>" + html_of(page.end) + "</footer>\n");
-  write("</main>\n" + answers_html(page) + "</body>\n</html>\n");
+    html += "<p class=\"note\">" + html_of(words("answers.missing")) + "</p>\n";
+  if (!page.end.empty()) html += "<footer>" + html_of(page.end) + "</footer>\n";
+  return html + "</main>\n" + answers_html(page) + "</body>\n</html>\n";
 }
 
 void write_html_file(const std::filesystem::path& file, const Page& page) {
-  AtomicFile out(file);
-  write_html(page, [&out](std::string_view piece) { out.write(piece); });
-  out.commit();
-}
-
-std::string html_of(const Page& page) {
-  return gathered([&](const Write& write) { write_html(page, write); });
+  write_whole_file(file, html_of(page));
 }
 
 std::string inline_svg(std::string_view svg, const std::string& name, const std::string& title) {
-  std::string text(svg);
-  cut_all(text, "<?xml", "?>");
-  cut_all(text, "<!DOCTYPE", ">");
+  std::string text(svg.substr(std::min(svg.find("<svg"), svg.size())));
+  if (text.empty()) return text;
   cut_all(text, "<!--", "-->");
   cut_all(text, "<desc>", "</desc>");
   // gnuplot numbers its marks alike in every file
@@ -384,9 +358,7 @@ std::string inline_svg(std::string_view svg, const std::string& name, const std:
   const size_t begin = text.find("<title>"), end = text.find("</title>");
   if (begin != std::string::npos && end != std::string::npos && begin < end)
     text.replace(begin + 7, end - begin - 7, escaped_html(title));
-  const size_t root = text.find("<svg");
-  if (root != std::string::npos) text.replace(root, 4, "<svg role=\"img\"");
-  return text;
+  return text.replace(0, 4, "<svg role=\"img\"");
 }
 
 bool can_answer() { return !chart_library().empty(); }
@@ -400,26 +372,6 @@ std::string answers_html(const Page& page) {
          "</style>\n<script type=\"application/json\" id=\"page-data\">" + data_of(page) +
          "</script>\n<script>\n" + chart_library() + "</script>\n<script>\n" + whole +
          "})();\n</script>\n";
-}
-
-void write_replay(const Replay& replay, const Write& write) {
-  write("<figure class=\"replay\" id=\"replay\">\n<style>\n" + replay_file("replay.css") +
-        "</style>\n<div id=\"replay-stage\">");
-  if (!replay.still.empty())
-    write("<img alt=\"The bodies in 3D: a still picture\" src=\"data:image/png;base64," +
-          base64(replay.still) + "\">");
-  write(
-      "</div>\n<p id=\"replay-sentence\">This picture moves in a browser with WebGL 2 and "
-      "scripts.</p>\n");
-  if (!replay.caption.empty()) write("<figcaption>" + html_of(replay.caption) + "</figcaption>\n");
-  write("<script type=\"application/json\" id=\"replay-head\">" + for_script(replay.head) +
-        "</script>\n");
-  for (const auto& [name, bytes] : replay.parts) {
-    write("<script type=\"text/plain\" id=\"replay-" + name + "\">");
-    write(base64(deflated(bytes, 9)));
-    write("</script>\n");
-  }
-  write("<script>\n" + replay_script() + "</script>\n</figure>\n");
 }
 
 }  // namespace page

@@ -3,7 +3,6 @@
 // replay has a script.
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -11,21 +10,14 @@
 
 namespace ballast::page {
 
-/// Takes what is written, piece by piece.
-using Write = std::function<void(std::string_view)>;
-
 /// The whole page, figures inlined.
-void write_html(const Page& page, const Write& write);
+std::string html_of(const Page& page);
 /// The same as a file, which is there whole or not at all. Throws Error.
 void write_html_file(const std::filesystem::path& file, const Page& page);
-std::string html_of(const Page& page);
 
-/// One part of it.
+/// One part of it. A replay has its data and the script that draws it, the page's only one.
 std::string html_of(const Text& text);
 std::string html_of(const Block& block);
-
-/// A replay with its data and the script that draws it. One of a page: it has the only script.
-void write_replay(const Replay& replay, const Write& write);
 
 /// & < > " ' become entities; what clean_utf8 refuses becomes U+FFFD.
 std::string escaped_html(std::string_view text);

@@ -121,10 +121,10 @@ struct MarkdownBlocks {
     for (const Text& item : notices.items) text += (*this)(styled(item, strong));
     return text;
   }
-  std::string operator()(const Listing& listing) const { return fenced(listing.text); }
-  std::string operator()(const Folded& folded) const {
-    return "<details><summary>" + markdown_of(folded.heading) + "</summary>\n\n" +
-           fenced(folded.text) + "</details>\n\n";
+  std::string operator()(const Listing& listing) const {
+    if (listing.heading.empty()) return fenced(listing.text);
+    return "<details><summary>" + markdown_of(listing.heading) + "</summary>\n\n" +
+           fenced(listing.text) + "</details>\n\n";
   }
   /// Markdown does not move.
   std::string operator()(const Replay& replay) const { return (*this)(replay.caption); }

@@ -18,23 +18,19 @@ struct Emptiness {
   bool operator()(const Picture& picture) const { return picture.plot.panels.empty(); }
   bool operator()(const Notices& notices) const { return notices.items.empty(); }
   bool operator()(const Listing& listing) const { return listing.text.empty(); }
-  bool operator()(const Folded& folded) const { return folded.text.empty(); }
   bool operator()(const Replay& replay) const { return replay.head.empty(); }
 };
-
-/// The picture as a file on its own: on white, whatever is behind it.
-std::string with_white_ground(std::string svg) {
-  const size_t root = svg.find("<svg");
-  const size_t end = root == std::string::npos ? root : svg.find('>', root);
-  if (end != std::string::npos)
-    svg.insert(end + 1, "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
-  return svg;
-}
 
 void draw(Picture& picture, const fs::path& folder, const Drawing& drawing) {
   const std::string& name = picture.plot.name;
   picture.svg = render_svg(picture.plot, folder);
-  if (drawing.on_white) write_whole_file(folder / (name + ".svg"), with_white_ground(picture.svg));
+  if (drawing.on_white) {
+    // on its own the file has white behind it, whatever shows it
+    std::string svg = picture.svg;
+    svg.insert(svg.find('>', svg.find("<svg")) + 1,
+               "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
+    write_whole_file(folder / (name + ".svg"), svg);
+  }
   std::error_code ignored;
   if (!drawing.with_script) fs::remove(folder / (name + ".gnuplot"), ignored);
 }
@@ -48,12 +44,6 @@ void Section::add(const std::vector<Picture>& pictures) {
 }
 
 bool Section::is_empty() const { return std::all_of(blocks.begin(), blocks.end(), page::is_empty); }
-
-Table facts_table() {
-  Table table;
-  table.is_facts = true;
-  return table;
-}
 
 Table words_table(const std::string& name, const Values& values) {
   const std::vector<Text> lines = parts_of(words(name, values), "\n");

@@ -36,16 +36,15 @@ struct Table {
   std::vector<Text> head = {};  ///< empty: none
   std::vector<std::vector<Text>> rows = {};
   std::vector<bool> is_number = {};  ///< columns that are set right-aligned; empty: none
-  bool is_facts = false;             ///< two columns, what and value: the first is narrow and soft
+  bool is_facts = false;             ///< rows are {what, value}: the first is narrow and soft
 };
 
 /// A plot and what is said about it.
 struct Picture {
   Figure plot = {};
   std::vector<Text> caption = {};  ///< one line each
-  Text files = {};         ///< links to its files, for pages that don't hold the picture themselves
-  std::string svg = {};    ///< filled by draw_pictures
-  bool is_linked = false;  ///< HTML links to the picture's file instead of holding it
+  Text files = {};       ///< links to its files, for pages that don't hold the picture themselves
+  std::string svg = {};  ///< filled by draw_pictures
 };
 
 /// What is missing or wrong, loudly.
@@ -54,19 +53,15 @@ struct Notices {
   std::vector<Text> items = {};
 };
 
-/// Text as it stands in a file or for a shell, in a box.
+/// Text as it stands in a file or for a shell, in a box; under a heading it is closed until the
+/// reader opens it.
 struct Listing {
   std::string text;
+  Text heading = {};
 };
 
-/// The same, closed until the reader opens it. `text` is shown as it is.
-struct Folded {
-  Text heading;
-  std::string text;
-};
-
-/// Bodies in 3D that move: what experiments/page/replay draws in the reader's browser (replay.md
-/// there says what the head and each part hold).
+/// Bodies in 3D that move: what experiments/page/replay draws in the reader's browser.
+/// view_page.cpp says what the head and each part hold.
 struct Replay {
   std::string head = {};                                        ///< JSON; empty: no replay
   std::vector<std::pair<std::string, std::string>> parts = {};  ///< name and raw bytes
@@ -75,8 +70,7 @@ struct Replay {
 };
 
 /// A paragraph is Text.
-using Block =
-    std::variant<Text, Subheading, List, Table, Picture, Notices, Listing, Folded, Replay>;
+using Block = std::variant<Text, Subheading, List, Table, Picture, Notices, Listing, Replay>;
 
 /// Says nothing: a table without rows, text without words. Writers leave it out.
 bool is_empty(const Block& block);
@@ -110,9 +104,6 @@ struct Page {
 
   void add(Section section) { sections.push_back(std::move(section)); }
 };
-
-/// A table of facts, empty: rows are {what, value}.
-Table facts_table();
 
 /// A table. Its words are lines: the caption, the cells of the head with "||" between them, and
 /// the rows that it has already.

@@ -137,8 +137,7 @@ KeySize key_size(const Figure& figure, const Panel& panel) {
 }
 
 struct PanelPlace {
-  double left, right;  ///< pixels from the figure's left edge to the axes' box
-  double top, bottom;  ///< pixels from the figure's lower edge to it
+  double top, bottom;  ///< pixels from the figure's lower edge to the axes' box
   bool shows_x;        ///< numbers and label below the x axis
   KeySize key;         ///< above the box
 };
@@ -147,41 +146,28 @@ struct PanelPlace {
 std::vector<PanelPlace> panel_places(const Figure& figure) {
   // numbers and x label below the last box, or below each when the axes differ
   const bool is_shared =
-      std::all_of(figure.panels.begin(), figure.panels.end(), [&](const Panel& panel) {
-        return panel.is_inset || panel.x_label == figure.panels[0].x_label;
-      });
+      std::all_of(figure.panels.begin(), figure.panels.end(),
+                  [&](const Panel& panel) { return panel.x_label == figure.panels[0].x_label; });
   constexpr double above = 12.0, below_last = 66.0;
   const double below = is_shared ? 12.0 : below_last;
   // what keys (and letters, which stand beside them), numbers and labels leave is shared evenly
-  // among the boxes; an inset takes no room
-  size_t count = 0;
+  // among the boxes
+  const auto count = static_cast<double>(figure.panels.size());
   double keys = 0.0;
   std::vector<KeySize> sizes;
   for (const Panel& panel : figure.panels) {
     KeySize& key = sizes.emplace_back(key_size(figure, panel));
     if (figure.has_letters) key.rows = std::max(key.rows, 1);
-    if (panel.is_inset) continue;
     keys += key_row * key.rows;
-    ++count;
   }
-  const double box = (figure.height - keys - static_cast<double>(count) * above - below_last -
-                      static_cast<double>(count - 1) * below) /
-                     static_cast<double>(count);
+  const double box =
+      (figure.height - keys - count * above - below_last - (count - 1.0) * below) / count;
   // from the top of the figure down
   std::vector<PanelPlace> places;
   double y = figure.height;
-  const double right = figure.width - right_margin;
-  for (size_t p = 0, boxes = 0; p < sizes.size(); ++p) {
-    if (figure.panels[p].is_inset) {
-      const PanelPlace& outer = places.back();
-      const double width = outer.right - outer.left, height = outer.top - outer.bottom;
-      places.push_back({outer.left + 0.09 * width, outer.left + 0.47 * width,
-                        outer.top - 0.05 * height, outer.bottom + 0.45 * height, true, sizes[p]});
-      continue;
-    }
-    ++boxes;
-    y -= above + key_row * sizes[p].rows;
-    places.push_back({left_margin, right, y, y - box, !is_shared || boxes == count, sizes[p]});
+  for (const KeySize& key : sizes) {
+    y -= above + key_row * key.rows;
+    places.push_back({y, y - box, !is_shared || places.size() + 1 == sizes.size(), key});
     y -= box + below;
   }
   return places;
@@ -257,28 +243,6 @@ std::string reference(const ReferenceLine& line) {
   return text + " front font ',13' tc rgb '" + rgb_of(Ink::black) + "'\n";
 }
 
-void check(const Figure& figure) {
-  const auto require = [&](bool is_good, const char* what) {
-    if (!is_good) throw std::invalid_argument(what);
-  };
-  const bool is_plain = !figure.name.empty() &&
-                        std::all_of(figure.name.begin(), figure.name.end(), [](unsigned char c) {
-                          return std::isalnum(c) || c == '_' || c == '-';
-                        });
-  require(is_plain, "its name must be of letters, digits, _ and -");
-  require(!figure.panels.empty(), "no panel");
-  for (const Panel& panel : figure.panels)
-    for (const Curve& curve : panel.curves) {
-      require(curve.x.size() == curve.y.size(), "as many x as y");
-      require(curve.y_error.empty() || curve.y_error.size() == curve.y.size(),
-              "as many error bars as points");
-      require((curve.mark == Mark::area) == !curve.y_low.empty(),
-              "an area, and only it, has lower bounds");
-      require(curve.y_low.empty() || curve.y_low.size() == curve.y.size(),
-              "as many lower bounds as y");
-    }
-}
-
 /// The ticks of a logarithmic axis ('x' or 'y'): with numbers at `numbered`, small ones between.
 std::string log_axis(char axis, const Extent& extent, std::vector<double> numbered) {
   if (numbered.empty()) numbered = log_ticks(extent);
@@ -297,16 +261,16 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
   std::string text =
       "unset arrow\nunset label\nunset logscale\nset format x '%g'\nset format y '%g'\n"
       "set xtics autofreq\nset ytics autofreq\n";
-  const double right = place.right / figure.width;
+  const double right = 1.0 - right_margin / figure.width;
   text += printed("set lmargin at screen %.5f\nset rmargin at screen %.5f\n",
-                  place.left / figure.width, right);
+                  left_margin / figure.width, right);
   text += printed("set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
                   place.top / figure.height, place.bottom / figure.height);
   text += "set xrange [" + script_number(x.low) + ':' + script_number(x.high) + "]\nset yrange [" +
           script_number(y.low) + ':' + script_number(y.high) + "]\n";
   if (panel.log_x) text += log_axis('x', x, panel.x_ticks);
   if (panel.log_y) text += log_axis('y', y, {});
-  text += printed("set tics font ',%d'\n", panel.is_inset ? 12 : 15);
+  text += "set tics font ',15'\n";
   text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + " offset 0,0.3\n"
                         : "set xlabel ''\nset format x ''\n";
   text += "set ylabel " + quoted(panel.y_label) + '\n';
@@ -324,26 +288,12 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
   return text + "plot " + curves + '\n';
 }
 
-/// gnuplot points at its complaint with a line of "^": the sentence is the last line that says
-/// something.
-std::string last_line(const std::string& errors) {
-  std::string line, last;
-  for (const char c : errors + '\n') {
-    if (c != '\n') {
-      line += c;
-      continue;
-    }
-    if (line.find_first_not_of(" ^\t\r") != std::string::npos) last = line;
-    line.clear();
-  }
-  return last.empty() ? "no message" : last.substr(0, 300);
-}
-
 std::string why(const ProgramResult& child, double seconds) {
   if (!child.was_found) return "gnuplot cannot be started: " + child.errors;
   if (child.timed_out)
     return "gnuplot was ended after " + std::to_string(std::lround(seconds)) + " s";
-  return "gnuplot failed (" + std::to_string(child.status) + "): " + last_line(child.errors);
+  return "gnuplot failed (" + std::to_string(child.status) +
+         "): " + one_line(child.errors, ' ').substr(0, 500);
 }
 
 }  // namespace
@@ -367,7 +317,6 @@ std::string plain_text(const std::string& text) {
 }
 
 std::string gnuplot_script(const Figure& figure) {
-  check(figure);
   std::string text =
       "# " + figure.name + ": gnuplot " + figure.name + ".gnuplot > " + figure.name + ".svg\n";
   for (size_t p = 0; p < figure.panels.size(); ++p)
@@ -386,9 +335,8 @@ std::string gnuplot_script(const Figure& figure) {
   const std::vector<PanelPlace> places = panel_places(figure);
   char next = 'a';
   for (size_t p = 0; p < figure.panels.size(); ++p) {
-    const bool is_lettered = figure.has_letters && !figure.panels[p].is_inset;
     text += panel_commands(figure, figure.panels[p], places[p], "$p" + std::to_string(p) + "c",
-                           is_lettered ? next++ : '\0');
+                           figure.has_letters ? next++ : '\0');
   }
   return text + "unset multiplot\n";
 }

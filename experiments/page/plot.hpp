@@ -57,7 +57,6 @@ struct Panel {
   std::vector<Curve> curves = {};
   std::vector<ReferenceLine> lines = {};
   std::vector<double> x_ticks = {};  ///< numbered; empty: chosen by the range
-  bool is_inset = false;             ///< stands inside the panel before it, on the upper left
 };
 
 struct Figure {
@@ -72,8 +71,8 @@ struct Figure {
 /// Escapes what enhanced text would interpret; control characters become spaces.
 std::string plain_text(const std::string& text);
 
-/// The script, data included; output goes to standard output. Throws std::invalid_argument when the
-/// figure is inconsistent.
+/// The script, data included; output goes to standard output. Throws std::invalid_argument when a
+/// panel has nothing to show.
 std::string gnuplot_script(const Figure& figure);
 
 /// Version line of the gnuplot found on PATH ("gnuplot 5.4 patchlevel 4"); empty when there is

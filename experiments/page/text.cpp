@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "experiments/page/plot.hpp"
 #include "platform/text.hpp"
@@ -25,8 +26,6 @@ class Notation {
 
   Text read() {
     read_part(whole_, 0, "");
-    for (const auto& [name, value] : values_)
-      if (!used_.contains(name)) fail("takes no value {" + name + "}");
     return std::move(text_);
   }
 
@@ -81,7 +80,6 @@ class Notation {
       const std::string name(rest.substr(1, end - 1));
       const auto value = values_.find(name);
       if (value == values_.end()) fail("the value {" + name + "} is missing");
-      used_.insert(name);
       text_ += styled(value->second, styles);
       return end + 1;
     }
@@ -96,28 +94,14 @@ class Notation {
 
   std::string_view whole_;
   const Values& values_;
-  std::set<std::string> used_;
   Text text_;
 };
 
-/// Length of the UTF-8 sequence at the start of `text`; 0 when it is none (overlong, surrogate,
-/// cut).
-size_t utf8_length(std::string_view text) {
-  const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[k]); };
-  // the first byte says how many follow
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  const size_t length = first >= 0xf0 && first < 0xf5 ? 4
-                        : first >= 0xe0               ? 3
-                        : first >= 0xc2               ? 2
-                                                      : 0;
-  if (length == 0 || first >= 0xf5 || text.size() < length) return 0;
-  for (size_t k = 1; k < length; ++k)
-    if ((byte(k) & 0xc0) != 0x80) return 0;
-  // longer than need be, a half of a UTF-16 pair, or beyond U+10FFFF
-  if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0)) return 0;
-  if ((first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) >= 0x90)) return 0;
-  return length;
+/// The first letter of UTF-8 with all its bytes.
+std::string first_letter(std::string_view text) {
+  size_t length = 1;
+  while (length < text.size() && (text[length] & 0xc0) == 0x80) ++length;
+  return std::string(text.substr(0, length));
 }
 
 /// Reads a plot's label from left to right.
@@ -144,10 +128,9 @@ struct LabelReader {
     }
     // of two blanks a page would show one
     if (c == ' ' && text.substr(at).starts_with(' ')) return "\u00a0";
-    // a letter with all its bytes
-    const size_t length = std::max<size_t>(1, utf8_length(text.substr(--at)));
-    at += length;
-    return std::string(text.substr(at - length, length));
+    const std::string letter = first_letter(text.substr(at - 1));
+    at += letter.size() - 1;
+    return letter;
   }
 };
 
@@ -158,11 +141,10 @@ std::string raised(const std::string& text) {
       {"6", "⁶"}, {"7", "⁷"}, {"8", "⁸"}, {"9", "⁹"}, {"−", "⁻"}};
   std::string result;
   for (size_t at = 0; at < text.size();) {
-    const size_t length = std::max<size_t>(1, utf8_length(std::string_view(text).substr(at)));
-    const auto form = forms.find(text.substr(at, length));
+    const auto form = forms.find(first_letter(std::string_view(text).substr(at)));
     if (form == forms.end()) return {};
     result += form->second;
-    at += length;
+    at += form->first.size();
   }
   return result;
 }
@@ -284,16 +266,14 @@ std::string plot_label(const Text& text) {
 Text label_words(std::string_view label) { return LabelReader{label}.until('\0'); }
 
 std::string clean_utf8(std::string_view text) {
+  using Json = nlohmann::json;
+  // JSON's writer replaces what is no UTF-8
+  const std::string json = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string result;
-  for (size_t at = 0; at < text.size();) {
-    const unsigned char c = static_cast<unsigned char>(text[at]);
-    const size_t length = utf8_length(text.substr(at));
-    const bool is_control = (c < 0x20 && c != '\n' && c != '\t' && c != '\r') || c == 0x7f;
-    if (length == 0 || is_control)
-      result += "\xef\xbf\xbd";
-    else
-      result += text.substr(at, length);
-    at += std::max<size_t>(length, 1);
+  for (const char c : Json::parse(json).get<std::string>()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_control = (byte < 0x20 && c != '\n' && c != '\t' && c != '\r') || byte == 0x7f;
+    result += is_control ? std::string("\xef\xbf\xbd") : std::string(1, c);
   }
   return result;
 }
@@ -358,11 +338,7 @@ Prose::Prose(std::initializer_list<std::string_view> files) {
 Text Prose::operator()(const std::string& name, const Values& values) const {
   const auto entry = entries_.find(name);
   if (entry == entries_.end()) throw std::logic_error("page texts: there is no \"" + name + "\"");
-  // the texts of one figure share their values: what this one does not name is not for it
-  Values named;
-  for (const auto& [value, words] : values)
-    if (entry->second.find('{' + value + '}') != std::string::npos) named.emplace(value, words);
-  return marked(entry->second, named);
+  return marked(entry->second, values);
 }
 
 }  // namespace ballast::page

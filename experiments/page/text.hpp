@@ -113,7 +113,7 @@ class Prose {
   /// break. Throws std::logic_error when a name occurs twice, or words stand before a headline.
   explicit Prose(std::initializer_list<std::string_view> files);
 
-  /// The entry with its values filled in; values that it does not name are left out. Throws
+  /// The entry with its values filled in: texts of one figure may share theirs. Throws
   /// std::logic_error when there is no entry of that name, and as marked() does.
   Text operator()(const std::string& name, const Values& values = {}) const;
 

@@ -24,8 +24,10 @@ class Results {
  public:
   /// Its name stands above its first row; without rows it does not stand.
   void group(const char* name) { group_ = name; }
+  /// Without a bound where that is not known.
   void bounded(const char* what, double value, double bound, const char* unit = "",
                double factor = 1.0) {
+    if (!std::isfinite(bound)) return plain(what, page::quantity(factor * value, unit));
     row(page::marked(what), page::quantity(factor * value, unit),
         "≤\u00a0" + page::exact_quantity(factor * bound, unit), page::verdict(value, bound));
   }
@@ -60,27 +62,19 @@ class Results {
 page::Text range_of(const Statistics& values, double factor, const char* unit) {
   const page::Text mean = page::quantity(factor * values.mean, unit);
   if (values.samples < 2) return mean;
+  const auto [least, largest] = std::minmax({factor * values.min, factor * values.max});
   return mean + " " +
-         styled("(" + page::number(factor * values.min) + " … " +
-                    page::number(factor * values.max) + ")",
-                page::note);
+         styled("(" + page::number(least) + " … " + page::number(largest) + ")", page::note);
 }
 
 void add_accuracy(const RunSummary& summary, Results& results) {
-  const auto bounded = [&](const char* what, double value, double bound, const char* unit,
-                           double factor) {
-    if (std::isfinite(bound))
-      results.bounded(what, value, bound, unit, factor);
-    else
-      results.plain(what, page::quantity(factor * value, unit));
-  };
   // errors are judged by what the scene asks of each step
   const double tolerance = summary.facts.tolerance;
   results.group("Contact law");
   if (std::isfinite(summary.facts.velocity_scale)) {
-    bounded("error, rms over contacts, over *gh*: mean of the steps", summary.error_mean_relative,
-            tolerance, "", 1.0);
-    bounded("the same: worst step", summary.error_max_relative, tolerance, "", 1.0);
+    results.bounded("error, rms over contacts, over *gh*: mean of the steps",
+                    summary.error_mean_relative, tolerance);
+    results.bounded("the same: worst step", summary.error_max_relative, tolerance);
     results.plain("worst contact of all steps, over *gh*",
                   page::number(summary.error_max.max / summary.facts.velocity_scale));
     if (tolerance > 0.0)
@@ -96,10 +90,10 @@ void add_accuracy(const RunSummary& summary, Results& results) {
   // these bounds are the vibrated box's: its grains' size, its drive
   const double known = *summary.facts.has_packing ? 1.0 : not_known;
   results.group("Overlap");
-  bounded("deepest of all steps", summary.penetration_max, known * target::penetration_max, "µm",
-          1e6);
-  bounded("mean over active contact points and steps", summary.penetration_mean,
-          known * target::penetration_mean, "µm", 1e6);
+  results.bounded("deepest of all steps", summary.penetration_max, known * target::penetration_max,
+                  "µm", 1e6);
+  results.bounded("mean over active contact points and steps", summary.penetration_mean,
+                  known * target::penetration_mean, "µm", 1e6);
   results.group("Energy");
   results.plain("|Δ*K* − works + dissipation| over absolute work",
                 page::number(summary.energy.relative));
@@ -126,9 +120,7 @@ void add_wall(const RunSummary& summary, Results& results) {
   results.compared("90\u202f% of it reached at", page::quantity(summary.contraction.time90, "s"),
                    "~\u00a00.2\u202fs");
   results.plain("Δ*x*~max~ per period: mean (least … largest)", range_of(summary.rise, 1e3, "mm"));
-  results.plain("contraction per period", range_of({-summary.net.mean, -summary.net.max,
-                                                    -summary.net.min, summary.net.samples},
-                                                   1e3, "mm"));
+  results.plain("contraction per period", range_of(summary.net, -1e3, "mm"));
   results.plain("*v*~max~ inwards", range_of(summary.speed_in, 1e3, "mm/s"));
   results.compared("*C* of Eq. 3, *m* the mass of all grains", page::number(summary.prefactor),
                    "~\u00a0" + page::number(paper::prefactor, 1));
@@ -284,7 +276,7 @@ page::Table provenance_table(const RunData& data) {
       {"environment", "/machine/environment"},
       {"started", "/started"},
       {"key", "/key"}};
-  page::Table table = page::facts_table();
+  page::Table table{.is_facts = true};
   for (const auto& [what, where] : facts) {
     std::string value = text_at(data, where);
     if (value.empty()) continue;
@@ -371,12 +363,12 @@ void write_report(const std::filesystem::path& folder) {
     parameters.add("Settings other than the scene’s (--set):");
     parameters.add(page::Listing{list});
   }
-  parameters.add(page::Folded{"The whole scene (scene.toml)", data.scene_text});
+  parameters.add(page::Listing{data.scene_text, "The whole scene (scene.toml)"});
   page.add(std::move(parameters));
   page.add({"provenance",
             "Program and machine",
             {provenance_table(data),
-             page::Folded{"The whole manifest (manifest.json)", data.manifest_text}}});
+             page::Listing{data.manifest_text, "The whole manifest (manifest.json)"}}});
   page::draw_pictures(page, folder,
                       {.command = shell_line({own_program().string(), "report",
                                               std::filesystem::absolute(folder).string()})});

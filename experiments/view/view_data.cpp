@@ -2,14 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <optional>
 
 #include "experiments/box/packing.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/prepared_run.hpp"
+#include "geometry/shape/convex_hull.hpp"
+#include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/text.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "problems/files/captured_problem.hpp"
+#include "solvers/seam/run_solver.hpp"
+#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {
@@ -69,7 +78,204 @@ ViewData view_of_state(MechanicalSystem system, const MotionState& state, std::s
   return view;
 }
 
+/// Where a contact point is, seen from the centre of mass of one of its bodies (`of_b`: the second)
+/// [m, world frame]. Zero where the problem does not tell: a body that does not turn, or a contact
+/// without friction, whose one row of H is too little.
+Vec3 lever_of(const CapturedProblem& captured, int contact, bool of_b) {
+  const auto c = static_cast<size_t>(contact);
+  const DynamicsForm& dynamics = captured.problem.dynamics;
+  const int rows = captured.problem.contact_rows(contact);
+  const int body = of_b ? dynamics.body_b[c] : dynamics.body_a[c];
+  if (rows != 3 || dynamics.body_dofs(body) != 6) return Vec3::Zero();
+  const double* block = dynamics.h.data() + dynamics.h_begin[c] +
+                        (of_b ? rows * dynamics.body_dofs(dynamics.body_a[c]) : 0);
+  // a row is +-(s x R^T d) for each direction d of the frame F, about the body's axes; with
+  // A = F^T rows, A A^T = |s|^2 I - s s^T in the world frame
+  const Eigen::Map<const Mat3> turning(block + 9);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> frame(captured.frame.data() +
+                                                                             9 * c);
+  const Mat3 a = frame.transpose() * turning, gram = a * a.transpose();
+  const Mat3 square = 0.5 * gram.trace() * Mat3::Identity() - gram;
+  int largest = 0;
+  const double top = square.diagonal().maxCoeff(&largest);
+  if (!(top > 0.0)) return Vec3::Zero();
+  const Vec3 lever = square.col(largest) / std::sqrt(top);
+  // the centre of a convex body lies behind its contact's plane
+  const double outward = (of_b ? -1.0 : 1.0) * frame.row(0).dot(lever);
+  return outward < 0.0 ? Vec3(-lever) : lever;
+}
+
+/// What the contacts and the mass block of one body tell.
+struct KnownBody {
+  std::vector<Vec3> points, centres;  ///< contact points; the centre of mass by each that tells it
+  std::vector<Vec3> normals;          ///< out of the body
+  double mass = 0.0, radius = 0.0;    ///< [kg]; of the ball of the same mean inertia [m]
+
+  bool is_plane() const {
+    return radius == 0.0 && std::all_of(normals.begin(), normals.end(), [&](const Vec3& normal) {
+             return normal.dot(normals.front()) > 1.0 - 1e-6;
+           });
+  }
+  Vec3 centre() const {
+    const std::vector<Vec3>& places = centres.empty() ? points : centres;
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& place : places) sum += place;
+    return sum / static_cast<double>(places.size());
+  }
+};
+
+/// A body turns when it has six unknowns; its mass block is principal, about the body's axes.
+void read_mass(const DynamicsForm& dynamics, int body, KnownBody& known) {
+  if (dynamics.body_dofs(body) != 6) return;
+  const double* block = dynamics.mass.data() + dynamics.mass_begin[static_cast<size_t>(body)];
+  known.mass = block[0];
+  // a ball has 2/5 m r^2 about each of its three axes
+  known.radius = std::sqrt(5.0 * (block[21] + block[28] + block[35]) / (6.0 * block[0]));
+}
+
+std::map<int, KnownBody> known_bodies(const CapturedProblem& captured) {
+  std::map<int, KnownBody> bodies;
+  for (int c = 0; c < captured.problem.contact_count(); ++c)
+    for (const bool is_b : {false, true}) {
+      const auto k = static_cast<size_t>(c);
+      KnownBody& known = bodies[is_b ? captured.id_b[k] : captured.id_a[k]];
+      const Vec3 point(captured.position.data() + 3 * k), normal(captured.frame.data() + 9 * k);
+      const DynamicsForm& dynamics = captured.problem.dynamics;
+      read_mass(dynamics, is_b ? dynamics.body_b[k] : dynamics.body_a[k], known);
+      known.points.push_back(point);
+      known.normals.push_back(is_b ? Vec3(-normal) : normal);
+      if (const Vec3 lever = lever_of(captured, c, is_b); !lever.isZero())
+        known.centres.push_back(point - lever);
+    }
+  return bodies;
+}
+
+BodySpec hull_of(const KnownBody& known, int id) {
+  BodySpec body;
+  body.name = printed("body %d", id);
+  body.mass = known.mass;
+  body.pose.position = known.centre();
+  double reach = 0.0;
+  for (const Vec3& point : known.points)
+    reach = std::max(reach, (point - body.pose.position).norm());
+  // what does not turn has no inertia: a small ball keeps its hull from being flat
+  const double radius = known.radius > 0.0 ? 0.9 * known.radius : std::max(0.05 * reach, 1e-6);
+  const Polyhedron ball = make_sphere(radius, 0);
+  std::vector<Vec3> corners(ball.vertices().begin(), ball.vertices().end());
+  for (const Vec3& point : known.points) corners.push_back(point - body.pose.position);
+  body.shape = std::make_shared<const Polyhedron>(convex_hull(corners));
+  return body;
+}
+
+/// The bodies of a captured problem without the run that it is from. Bodies that turn have their
+/// centre of mass, a ball of their mass and inertia, and the hull of that ball and their contact
+/// points. What does not turn is a wall where all its contacts have one normal, else a hull too.
+/// `contacts`: the problem's own; the view has them by its own bodies.
+ViewData bodies_of_problem(const CapturedProblem& captured, std::vector<FrameContact> contacts) {
+  const std::map<int, KnownBody> bodies = known_bodies(captured);
+  ViewData view;
+  view.has_shapes = false;
+  MotionState state;
+  std::map<int, int> place;  // of a body of the problem in the view
+  // walls come last
+  for (const bool are_walls : {false, true})
+    for (const auto& [id, known] : bodies) {
+      if (known.is_plane() != are_walls) continue;
+      place[id] = static_cast<int>(view.system.bodies.size());
+      if (are_walls) {
+        WallSpec wall;
+        wall.name = printed("wall %d", id);
+        wall.normal = known.normals.front();
+        wall.offset = wall.normal.dot(known.points.front());
+        add_wall(view.system, state, wall);
+      } else {
+        const double volume = 4.0 / 3.0 * M_PI * std::pow(known.radius, 3);
+        add_body(view.system, state, hull_of(known, id), volume);
+      }
+    }
+  for (FrameContact& contact : contacts) {
+    contact.body_a = place.at(contact.body_a);
+    contact.body_b = place.at(contact.body_b);
+  }
+  const std::vector<double>& friction = captured.problem.friction;
+  if (!friction.empty()) view.friction = *std::max_element(friction.begin(), friction.end());
+  view.frames = {{captured.time, captured.step, state.pose, state.velocity, state.spin}};
+  view.contacts = [contacts](size_t) { return contacts; };
+  return view;
+}
+
+/// Above its capture/.
+fs::path run_folder_of(const fs::path& file) {
+  return fs::absolute(file).parent_path().parent_path();
+}
+
+/// The contacts as they were, with the forces of the run's own answer.
+std::vector<FrameContact> contacts_of(const CapturedProblem& captured) {
+  std::vector<FrameContact> contacts;
+  for (int c = 0; c < captured.problem.contact_count(); ++c) {
+    const auto k = static_cast<size_t>(c);
+    const double* frame = captured.frame.data() + 9 * k;
+    Vec3 force = Vec3::Zero();
+    for (int row = 0; row < captured.problem.contact_rows(c); ++row)
+      force += captured.solution[captured.problem.row_begin[k] + row] / captured.h *
+               Vec3(frame + 3 * row);
+    contacts.push_back({captured.id_a[k], captured.id_b[k],
+                        Vec3(captured.position.data() + 3 * k).cast<float>(),
+                        Vec3(frame).cast<float>(), force.cast<float>()});
+  }
+  return contacts;
+}
+
+ViewErrors errors_of(const CapturedProblem& captured, const std::string& backend,
+                     const ErrorQuestion& question) {
+  ViewErrors errors;
+  errors.backend = backend;
+  errors.iterations = question.iterations;
+  const auto solver = make_solver(backend);
+  SolverRunner runner;
+  for (const int iterations : question.iterations) {
+    // a tolerance that nobody reaches: the budget alone ends a solve
+    const Budget budget{.tolerance = 1e-14 * captured.velocity_scale(),
+                        .max_iterations = iterations,
+                        .max_seconds = question.max_seconds};
+    const SolverRun run = runner.run(*solver, captured.problem,
+                                     question.is_warm ? captured.start : Impulses(), budget);
+    std::vector<double> error = errors_by_contact(captured.problem, run.solved.impulses);
+    for (double& value : error) value /= captured.velocity_scale();
+    errors.error.push_back(std::move(error));
+    errors.rms.push_back(run.error.natural_map_rms / captured.velocity_scale());
+    if (run.solved.reason == StopReason::time_limit) break;
+  }
+  // whose time is over does not get further
+  errors.error.resize(question.iterations.size(), errors.error.back());
+  errors.rms.resize(question.iterations.size(), errors.rms.back());
+  return errors;
+}
+
+/// The bodies of the run in `folder`, at the frame nearest to a problem's time; nothing where that
+/// is not the run that the problem is from.
+std::optional<ViewData> view_in_run(const fs::path& folder, const CapturedProblem& captured) {
+  if (!is_there(folder / "record.h5")) return std::nullopt;
+  ViewData view;
+  MotionState state;
+  view.system = recorded_system(folder, state);
+  view.friction = view.system.friction;
+  const std::vector<MotionState> frames = read_poses(folder);
+  for (const std::vector<int>* ids : {&captured.id_a, &captured.id_b})
+    for (const int id : *ids)
+      if (id < 0 || static_cast<size_t>(id) >= view.system.bodies.size()) return std::nullopt;
+  if (frames.empty()) return std::nullopt;
+  view.frames = {frames[nearest_frame(frames, captured.time)]};
+  view.contacts = [contacts = contacts_of(captured)](size_t) { return contacts; };
+  return view;
+}
+
 }  // namespace
+
+size_t nearest_frame(const std::vector<MotionState>& frames, double time) {
+  const auto away = [time](const MotionState& frame) { return std::abs(frame.time - time); };
+  return static_cast<size_t>(std::ranges::min_element(frames, {}, away) - frames.begin());
+}
 
 std::optional<ViewData> view_of_run(const RunData& run) {
   const fs::path record = run.folder / "record.h5";
@@ -123,6 +329,17 @@ ViewData view_of_mesh(const fs::path& file) {
   MotionState state;
   MechanicalSystem system = make_system(scene, state);
   return view_of_state(std::move(system), state, file.filename().string());
+}
+
+ViewData view_of_problem(const fs::path& file, const ErrorQuestion& question) {
+  const CapturedProblem captured = read_captured(file);
+  std::optional<ViewData> in_run = view_in_run(run_folder_of(file), captured);
+  ViewData view = in_run ? std::move(*in_run) : bodies_of_problem(captured, contacts_of(captured));
+  view.title = printed("Where answers are wrong: step %d, %d contact points", captured.step,
+                       captured.problem.contact_count());
+  for (const std::string& backend : question.backends)
+    view.errors.push_back(errors_of(captured, backend, question));
+  return view;
 }
 
 }  // namespace ballast

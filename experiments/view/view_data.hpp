@@ -1,5 +1,6 @@
 #pragma once
-// What a page's replay shows, before it is packed: bodies at some moments, contacts, curves.
+// What a page's replay shows, before it is packed: bodies at some moments, contacts, curves; of a
+// run, a scene, a mesh, a captured problem.
 
 #include <filesystem>
 #include <functional>
@@ -62,5 +63,26 @@ ViewData view_of_scene(const Scene& scene, const std::filesystem::path& packing_
 
 /// One convex body of an OBJ or STL file, in its own frame. Throws MeshFileError.
 ViewData view_of_mesh(const std::filesystem::path& file);
+
+/// Number of the frame nearest in time [s]; at least one frame.
+size_t nearest_frame(const std::vector<MotionState>& frames, double time);
+
+// A captured problem in space: where answers to it are wrong.
+
+/// The backends that are asked, how many iterations each may take (growing), and from where they
+/// begin.
+struct ErrorQuestion {
+  std::vector<std::string> backends = {"pgs", "auto"};
+  std::vector<int> iterations = {1, 3, 10, 30, 100, 300, 1000};
+  bool is_warm = false;       ///< from the captured start; else from zero
+  double max_seconds = 1e30;  ///< of one solve: larger budgets have the answer that it reached
+};
+
+/// The bodies of a captured problem with its contacts and forces, and the judge's error of every
+/// contact under each backend and budget, over the problem's velocity scale. The bodies are those
+/// of the run whose capture/ holds the file, at the stored frame nearest to the problem's time;
+/// where no run is around the file, what the problem knows of them. Throws
+/// UnknownSolver, MissingSolver, UnsupportedProblem, ProblemFileError.
+ViewData view_of_problem(const std::filesystem::path& file, const ErrorQuestion& question);
 
 }  // namespace ballast

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -20,27 +19,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::uint16_t>;
 using Bytes = std::vector<std::uint8_t>;
+using Floats = std::vector<float>;
 
-std::string text_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
-
-/// Low bytes before high ones.
-std::string text_of(const Words& values) {
-  std::string bytes(2 * values.size(), '\0');
-  for (size_t k = 0; k < values.size(); ++k) {
-    bytes[k] = static_cast<char>(values[k] & 255);
-    bytes[values.size() + k] = static_cast<char>(values[k] >> 8);
-  }
-  return bytes;
-}
-
-/// In single precision, first bytes before second ones and so on: neighbours are alike.
-std::string text_of(const std::vector<double>& values) {
-  std::string bytes(4 * values.size(), '\0');
-  for (size_t k = 0; k < values.size(); ++k) {
-    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(values[k]));
-    for (size_t b = 0; b < 4; ++b)
-      bytes[b * values.size() + k] = static_cast<char>(bits >> (8 * b) & 255);
-  }
+/// The bytes of numbers: all first (lowest) ones, then all second ones and so on, because
+/// neighbours are alike.
+template <class Number>
+std::string text_of(const std::vector<Number>& values) {
+  std::string bytes(sizeof(Number) * values.size(), '\0');
+  for (size_t k = 0; k < values.size(); ++k)
+    for (size_t b = 0; b < sizeof(Number); ++b)
+      bytes[b * values.size() + k] = reinterpret_cast<const char*>(&values[k])[b];
   return bytes;
 }
 
@@ -119,11 +107,11 @@ void pack_shapes(const ViewData& view, Json& head, page::Replay& replay) {
   head["scale"] = scale;
   head["shapes"] = place.size();
   head["shape_of"] = Json::array();
-  std::vector<double> grains;
+  Floats grains;
   for (int b = 0; b < view.system.grain_count; ++b) {
     const RigidBody& body = view.system.bodies[static_cast<size_t>(b)];
     head["shape_of"].push_back(place.at(body.shape.polyhedron));
-    grains.insert(grains.end(), {body.mass, body.volume});
+    grains.insert(grains.end(), {static_cast<float>(body.mass), static_cast<float>(body.volume)});
   }
   replay.parts.emplace_back("shapes", text_of(words));
   replay.parts.emplace_back("grains", text_of(grains));
@@ -174,7 +162,7 @@ void pack_poses(const ViewData& view, const std::vector<size_t>& chosen, Json& h
 void pack_walls(const ViewData& view, const std::vector<size_t>& chosen, Json& head,
                 page::Replay& replay) {
   head["walls"] = Json::array();
-  std::vector<double> values;
+  Floats values;
   for (auto b = static_cast<size_t>(view.system.grain_count); b < view.system.bodies.size(); ++b) {
     const RigidBody& body = view.system.bodies[b];
     const Vec3 normal = view.frames[chosen.front()].pose[b].rotation * body.shape.plane.normal;
@@ -245,7 +233,7 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
 }
 
 void pack_series(const ViewData& view, Json& head, page::Replay& replay) {
-  std::vector<double> values = view.series_time;
+  Floats values(view.series_time.begin(), view.series_time.end());
   head["rows"] = view.series_time.size();
   head["series"] = head["plots"] = Json::array();
   for (const ViewSeries& one : view.series) {

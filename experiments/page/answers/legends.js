@@ -20,34 +20,27 @@ function legend_of(figure, is_shown, hidden) {
                  ...[...seen.values()].map(switch_of));
 }
 
-/// The keys of a chart: left and right along a curve, up and down to the next curve, Home and End,
-/// Enter. `show` and `open` get {datasetIndex, index}.
+/// The keys of a chart: left and right along the values of a curve, up and down to the next curve,
+/// Home and End, Enter. `show` and `open` get {datasetIndex, index}.
 function key_walk(figure, is_shown, show, open) {
-  let curve = 0, index = -1;
+  let at = null;
   const steps = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0],
                   Home: [0, -Infinity], End: [0, Infinity] };
   return (event) => {
-    const shown = figure.curves.map((one, k) => k)
-      .filter((k) => is_shown(figure.curves[k]) &&
-        figure.curves[k].points.some((point) => point.y !== null));
-    if (!shown.length) return;
-    if (event.key === "Enter" && index >= 0) open({ datasetIndex: curve, index });
-    const step = steps[event.key];
-    if (!step) return;
+    const curves = figure.curves.map((curve, datasetIndex) => (is_shown(curve) ?
+      curve.points.map(({ x, y }, index) => ({ datasetIndex, index, x, y })) : [])
+      .filter(({ y }) => y !== null)).filter((spots) => spots.length);
+    if (!curves.length) return;
+    if (event.key === "Enter" && at) open(at);
+    const [over, along] = steps[event.key] ?? [];
+    if (along === undefined) return;
     event.preventDefault();
-    const place = Math.max(0, shown.indexOf(curve));
-    const x = figure.curves[curve].points[index]?.x;
-    curve = shown[(place + step[0] + shown.length) % shown.length];
-    const points = figure.curves[curve].points, last = points.length - 1;
-    // on another curve, the point that is nearest along x
-    if (step[0] && x !== undefined)
-      index = points.reduce((best, p, k) =>
-        Math.abs(p.x - x) < Math.abs(points[best].x - x) ? k : best, 0);
-    index = Math.min(last, Math.max(0, index + step[1]));
-    // over where the curve is broken, to the next value on the way, else back
-    const way = Math.sign(step[1]) || 1;
-    for (const go of [way, -way])
-      while (points[index]?.y === null && points[index + go]) index += go;
-    if (points[index].y !== null) show({ datasetIndex: curve, index });
+    const place = Math.max(0, curves.findIndex(([one]) => one.datasetIndex === at?.datasetIndex));
+    const spots = curves[(place + over + curves.length) % curves.length];
+    // on another curve, the value that is nearest along x
+    const away = (k) => (over ? Math.abs(spots[k].x - at.x) : Math.abs(spots[k].index - at.index));
+    const from = at ? spots.reduce((best, _, k) => (away(k) < away(best) ? k : best), 0) : -1;
+    at = spots[Math.min(spots.length - 1, Math.max(0, from + along))];
+    show(at);
   };
 }

@@ -1,4 +1,4 @@
-// Numbers as the page writes them (experiments/page/number.cpp), and back.
+// Numbers as the page writes them (experiments/page/text.cpp), and back.
 
 const narrow_space = "\u202f", dash = "\u2013";
 

@@ -1,11 +1,11 @@
 // What the page holds, and the state of all bodies at any time between the stored frames. The parts
 // are those of experiments/view/view_page.cpp.
 
-const element = (id) => document.getElementById("replay-" + id);
+const part = (id) => document.getElementById("replay-" + id);
 
 // The bytes of a part: base64, then deflate.
 async function partBytes(name) {
-  const holder = element(name);
+  const holder = part(name);
   if (!holder) return new Uint8Array(0);
   const packed = Uint8Array.from(atob(holder.textContent), (c) => c.charCodeAt(0));
   holder.textContent = "";
@@ -13,16 +13,24 @@ async function partBytes(name) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// Zigzag differences, column after column, as values[frame * columns + column]. `planes`: bytes of
-// a number; `order`: how often differences were taken.
-function historyOf(bytes, columns, planes, order) {
-  const count = bytes.length / planes, frames = columns ? count / columns : 0;
-  const values = planes === 2 ? new Uint16Array(count) : new Uint8Array(count);
+// Numbers of a typed array's kind: all their first bytes, then all second ones, ...
+function numbersOf(bytes, Type) {
+  const size = Type.BYTES_PER_ELEMENT, count = bytes.length / size;
+  const whole = new Uint8Array(bytes.length);
+  for (let b = 0; b < size; ++b)
+    for (let k = 0; k < count; ++k) whole[size * k + b] = bytes[b * count + k];
+  return new Type(whole.buffer);
+}
+
+// Zigzag differences, column after column, as values[frame * columns + column]. `order`: how often
+// differences were taken.
+function historyOf(codes, columns, order) {
+  const values = new codes.constructor(codes.length);
+  const frames = columns ? codes.length / columns : 0;
   for (let c = 0, at = 0; c < columns; ++c) {
     let value = 0, slope = 0;
     for (let f = 0; f < frames; ++f, ++at) {
-      const code = planes === 2 ? bytes[at] | bytes[count + at] << 8 : bytes[at];
-      const difference = (code >> 1) ^ -(code & 1);
+      const difference = (codes[at] >> 1) ^ -(codes[at] & 1);
       slope = order === 2 ? slope + difference : difference;
       value += slope;
       values[f * columns + c] = value;  // modulo 2^16 or 2^8
@@ -31,17 +39,15 @@ function historyOf(bytes, columns, planes, order) {
   return values;
 }
 
-function wordsOf(bytes) {
-  const count = bytes.length / 2, values = new Uint16Array(count);
-  for (let k = 0; k < count; ++k) values[k] = bytes[k] | bytes[count + k] << 8;
-  return values;
-}
-
-function floatsOf(bytes) {
-  const count = bytes.length / 4, whole = new Uint8Array(bytes.length);
-  for (let b = 0; b < 4; ++b)
-    for (let k = 0; k < count; ++k) whole[4 * k + b] = bytes[b * count + k];
-  return new Float32Array(whole.buffer);
+// Of growing times the last one that is not after `time`, and the share of the way to the next.
+function placeIn(times, time) {
+  let low = 0, high = times.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle; else high = middle;
+  }
+  const span = high > low ? times[high] - times[low] : 0;
+  return [low, span ? clamp((time - times[low]) / span, 0, 1) : 0];
 }
 
 // -1 .. 1 from 8 bits with a root's steps.
@@ -52,11 +58,14 @@ const fromSignedRoot = (byte) => {
 
 class Data {
   static async load() {
-    const names = ["shapes", "grains", "positions", "rotations", "velocities", "walls", "series",
-      "contact_bodies", "contact_places", "contact_forces", "contact_mobilised", "errors"];
-    const parts = {};
-    await Promise.all(names.map(async (name) => { parts[name] = await partBytes(name); }));
-    return new Data(JSON.parse(element("head").textContent), parts);
+    const kinds = { shapes: Uint16Array, grains: Float32Array, positions: Uint16Array,
+      rotations: Uint16Array, velocities: Uint8Array, walls: Float32Array, series: Float32Array,
+      contact_bodies: Uint16Array, contact_places: Uint8Array, contact_forces: Uint16Array,
+      contact_mobilised: Uint8Array, errors: Uint8Array }, parts = {};
+    await Promise.all(Object.entries(kinds).map(async ([name, kind]) => {
+      parts[name] = numbersOf(await partBytes(name), kind);
+    }));
+    return new Data(JSON.parse(part("head").textContent), parts);
   }
 
   constructor(head, parts) {
@@ -66,15 +75,15 @@ class Data {
     this.begin = head.times[0];
     this.end = head.times[head.times.length - 1];
     const columns = 3 * head.grains;
-    this.positions = historyOf(parts.positions, columns, 2, 2);
-    this.rotations = historyOf(parts.rotations, 4 * head.grains, 2, 2);
-    this.velocities = historyOf(parts.velocities, columns, 1, 1);
-    const constants = floatsOf(parts.grains);
-    this.mass = constants.filter((_, k) => k % 2 === 0);
-    this.size = constants.filter((_, k) => k % 2).map((volume) => Math.cbrt(6 * volume / Math.PI));
-    this.wallStates = floatsOf(parts.walls);
-    this.readShapes(wordsOf(parts.shapes));
-    this.readSeries(floatsOf(parts.series));
+    this.positions = historyOf(parts.positions, columns, 2);
+    this.rotations = historyOf(parts.rotations, 4 * head.grains, 2);
+    this.velocities = historyOf(parts.velocities, columns, 1);
+    this.mass = parts.grains.filter((_, k) => k % 2 === 0);
+    this.size = parts.grains.filter((_, k) => k % 2)
+      .map((volume) => Math.cbrt(6 * volume / Math.PI));
+    this.wallStates = parts.walls;
+    this.readShapes(parts.shapes);
+    this.readSeries(parts.series);
     this.readContacts(parts);
     this.errors = parts.errors;
     // position, colour value, quaternion of every grain: what the picture is drawn from
@@ -104,7 +113,7 @@ class Data {
   }
 
   readContacts(parts) {
-    const words = wordsOf(parts.contact_bodies), count = words.length / 2;
+    const words = parts.contact_bodies, count = words.length / 2;
     const a = new Uint16Array(count), b = new Uint16Array(count);
     const reach = this.shapes.map(({ vertices }) => {
       let square = 0;
@@ -113,7 +122,7 @@ class Data {
       return Math.sqrt(square) / 32767 * this.head.scale;
     });
     this.reach = this.head.shape_of.map((shape) => reach[shape]);
-    const force = wordsOf(parts.contact_forces), strength = new Float32Array(count);
+    const force = parts.contact_forces, strength = new Float32Array(count);
     this.contactFrames = (this.head.contact_frames || []).map((frame, k) => ({ frame, k }));
     let at = 0;
     for (const [k, frame] of this.contactFrames.entries()) {
@@ -146,14 +155,8 @@ class Data {
 
   // The frame at or before a time, and the share of the way to the next.
   frameAt(time) {
-    let low = 0, high = this.times.length - 1;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (this.times[middle] <= time) low = middle; else high = middle;
-    }
-    const next = Math.min(low + 1, this.times.length - 1);
-    const span = this.times[next] - this.times[low];
-    return { frame: low, next, span, u: span ? clamp((time - this.times[low]) / span, 0, 1) : 0 };
+    const [frame, u] = placeIn(this.times, time), next = Math.min(frame + 1, this.times.length - 1);
+    return { frame, next, span: this.times[next] - this.times[frame], u };
   }
 
   positionOf(frame, g, k) {
@@ -197,28 +200,22 @@ class Data {
 
   // A curve's value at a time; before its first row that row's.
   seriesAt(name, time) {
-    const t = this.seriesTime, values = this.series[name].values;
-    let low = 0, high = t.length - 1;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (t[middle] <= time) low = middle; else high = middle;
-    }
-    const u = high > low ? clamp((time - t[low]) / (t[high] - t[low]), 0, 1) : 0;
-    return values[low] + (values[high] - values[low]) * u;
+    const [row, u] = placeIn(this.seriesTime, time), { values } = this.series[name];
+    return values[row] + (u && (values[row + 1] - values[row]) * u);
   }
 
   // A wall's point at a time. The driven one follows the curve of all steps, not the frames.
   wallAt(w, time) {
     const wall = this.head.walls[w], frames = this.times.length;
-    const part = (frame, k) => this.wallStates[6 * (w * frames + frame) + k];
+    const stored = (frame, k) => this.wallStates[6 * (w * frames + frame) + k];
     if (wall.driven && this.series.x) {
       const outward = (this.seriesAt("x", time) - this.seriesStart()) * 1e-3;
-      return [0, 1, 2].map((k) => part(0, k) - wall.normal[k] * outward);
+      return [0, 1, 2].map((k) => stored(0, k) - wall.normal[k] * outward);
     }
     const { frame, next, span, u } = this.frameAt(time);
-    return [0, 1, 2].map((k) => part(frame, k) + (part(next, k) - part(frame, k)) * u +
-      u * (1 - u) * span * ((1 - u) * (part(frame, 3 + k)) - u * part(next, 3 + k) +
-        (2 * u - 1) * (span ? (part(next, k) - part(frame, k)) / span : 0)));
+    return [0, 1, 2].map((k) => stored(frame, k) + (stored(next, k) - stored(frame, k)) * u +
+      u * (1 - u) * span * ((1 - u) * (stored(frame, 3 + k)) - u * stored(next, 3 + k) +
+        (2 * u - 1) * (span ? (stored(next, k) - stored(frame, k)) / span : 0)));
   }
   // x at the first frame: 0, unless the stored frames begin later.
   seriesStart() {

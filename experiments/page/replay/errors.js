@@ -55,9 +55,9 @@ class ErrorView {
     const within = iterations.filter((budget) => budget <= +choice.get("budget")).length;
     if (within) this.budget = within - 1;
     ["left", "right"].forEach((side, k) => {
-      if (element(side)) element(side).value = this.shown[k];
+      if (part(side)) part(side).value = this.shown[k];
     });
-    element("budget").value = this.budget;
+    part("budget").value = this.budget;
     this.say();
   }
 
@@ -71,21 +71,19 @@ class ErrorView {
   // The controls: who is shown where, the budget, the way to the worst contact.
   build(replay) {
     if (!this.isOn) return;
-    const place = element("errors"), { iterations } = this.solves[0];
+    const place = part("errors"), { iterations } = this.solves[0];
     const names = this.solves.map((solve, k) => [String(k), solve.backend]);
     const two = this.solves.length > 1;
     place.hidden = false;
     place.replaceChildren(
       selection("left", two ? "left" : "backend", names, String(this.shown[0])),
       ...two ? [selection("right", "right", names, String(this.shown[1]))] : [],
-      make("label", {}, "iterations", make("input", { id: "replay-budget", type: "range", min: "0",
-        max: String(iterations.length - 1), step: "1", value: String(this.budget),
-        "aria-label": "iterations" })),
-      make("output", { id: "replay-budgettext" }),
-      button("worst", "worst contact", "Look at the most wrong contact of the left picture"));
+      slider("budget", "iterations", 0, iterations.length - 1, this.budget, 1),
+      element("output", { id: "replay-budgettext" }),
+      control("worst", "worst contact", "Look at the most wrong contact of the left picture"));
     const listen = (id, event, action) => {
-      if (element(id)) element(id).addEventListener(event, () => {
-        action(element(id));
+      if (part(id)) part(id).addEventListener(event, () => {
+        action(part(id));
         this.say();
         replay.touched();
       });
@@ -111,22 +109,16 @@ class ErrorView {
     if (this.worst >= 0)
       words.push("worst on the left: " + number(10 ** this.errorOf(0, this.findWorst(0))));
     pictures.forEach((k, picture) => {
-      if (element("who" + picture)) element("who" + picture).textContent = this.solves[k].backend;
+      if (part("who" + picture)) part("who" + picture).textContent = this.solves[k].backend;
     });
-    element("budgettext").textContent = iterations[this.budget] + " \u2014 " + words.join(", ");
+    part("budgettext").textContent = iterations[this.budget] + " \u2014 " + words.join(", ");
   }
 
   drawLegend() {
-    const legend = element("legend"), bar = make("div", { class: "bar" });
-    bar.style.background = cssGradient(markRamps.heat);
-    const [low, high] = errorDecades;
-    const ticks = [low, low + 2, low + 4, high].map((decade) => {
-      const mark = make("span", {}, decade ? "1e\u2212" + -decade : "1");
-      mark.style.left = 100 * (decade - low) / (high - low) + "%";
-      return mark;
-    });
+    const [low, high] = errorDecades, legend = part("legend");
+    const ticks = [low, low + 2, low + 4, high].map((decade) =>
+      [(decade - low) / (high - low), decade ? "1e\u2212" + -decade : "1"]);
     legend.hidden = false;
-    legend.replaceChildren(make("b", {}, "error over g h"), bar,
-      make("div", { class: "ticks" }, ...ticks));
+    legend.replaceChildren(...rampLegend("error over g h", cssGradient(markRamps.heat), ticks));
   }
 }

@@ -78,7 +78,7 @@ function listenToKeys(canvas, replay) {
 // Buttons, sliders and choices.
 function listenToPanel(replay) {
   const on = (id, event, action) => {
-    const found = element(id);
+    const found = part(id);
     if (found) found.addEventListener(event, () => action(found));
   };
   on("play", "click", () => replay.setPlaying(!replay.playing));

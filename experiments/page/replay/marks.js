@@ -29,7 +29,8 @@ class Marks {
     this.data = data;
     const f = data.series.f;
     this.topLoad = f ? Math.max(...f.values.map(Math.abs)) || 1 : 1;
-    this.topChain = this.largestChain() || 1;
+    const chains = sampled(data.contactFrames, 10).flatMap((frame) => this.chainsIn(frame));
+    this.topChain = quantile(chains.map((chain) => chain[2]), 0.995) || 1;
     this.meanReach = data.reach.reduce((sum, r) => sum + r, 0) / Math.max(1, data.grains);
   }
 
@@ -43,12 +44,6 @@ class Marks {
       last[2] += force[c];
     }
     return chains;
-  }
-  largestChain() {
-    const frames = this.data.contactFrames, all = [];
-    for (let k = 0; k < frames.length; k += Math.max(1, Math.floor(frames.length / 10)))
-      all.push(...this.chainsIn(frames[k]).map((chain) => chain[2]));
-    return quantile(all, 0.995);
   }
 
   // Fills in the look's planes and returns its rods. `options`: what the reader has chosen.

@@ -1,73 +1,67 @@
 // The page's elements around the picture: buttons, choices, legend, facts about a picked grain.
 
-function make(tag, attributes = {}, ...children) {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes))
-    if (name in made && typeof value !== "string") made[name] = value;
-    else made.setAttribute(name, value);
-  made.append(...children);
-  return made;
-}
 const selection = (id, words, options, chosen) => {
-  const select = make("select", { id: "replay-" + id },
-    ...options.map(([value, text]) => make("option", { value, selected: value === chosen }, text)));
-  return make("label", {}, words, select);
+  const select = element("select", { id: "replay-" + id },
+    ...options.map(([value, text]) =>
+      element("option", { value, selected: value === chosen }, text)));
+  return element("label", {}, words, select);
 };
-const slider = (id, words, min, max, value) => make("label", {}, words,
-  make("input", { id: "replay-" + id, type: "range", min: String(min), max: String(max),
-    step: "any", value: String(value), "aria-label": words || id }));
-const button = (id, text, title) =>
-  make("button", { id: "replay-" + id, type: "button", title, "aria-label": title }, text);
-const tick = (id, words) => make("label", {},
-  make("input", { id: "replay-" + id, type: "checkbox" }), words);
+const slider = (id, words, min, max, value, step = "any") => element("label", {}, words,
+  element("input", { id: "replay-" + id, type: "range", min, max, step, value,
+    "aria-label": words || id }));
+const control = (id, text, title) =>
+  element("button", { id: "replay-" + id, type: "button", title, "aria-label": title }, text);
+const tick = (id, words) => element("label", {},
+  element("input", { id: "replay-" + id, type: "checkbox" }), words);
 
 // All elements, in the place of the still picture.
 function buildPanel(data, shades) {
-  const place = element("stage"), moves = data.times.length > 1;
+  const place = part("stage"), moves = data.times.length > 1;
   const hasContacts = data.contactFrames.length > 0;
   const names = { speed: "speed", displacement: "displacement", rotation: "rotation",
     force: "force carried", size: "size class", none: "none" };
   const colours = Object.keys(shades.choices).map((name) => [name, names[name]]);
   place.replaceChildren(
-    make("div", { class: "views" },
-      make("canvas", { id: "replay-canvas", tabindex: "0", role: "application",
+    element("div", { class: "views" },
+      element("canvas", { id: "replay-canvas", tabindex: "0", role: "application",
         "aria-label": "The bodies in 3D. Arrows turn, + and - zoom, g picks a grain." }),
-      ...data.head.errors.length > 1 ? [make("canvas", { id: "replay-second",
+      ...data.head.errors.length > 1 ? [element("canvas", { id: "replay-second",
         "aria-label": "The same bodies with the second backend's errors" })] : [],
-      ...data.head.errors.map((_, k) => make("div", { id: "replay-who" + k, class: "who" })),
-      make("div", { id: "replay-legend" }),
-      make("div", { id: "replay-facts", "aria-live": "polite", hidden: true }),
-      make("div", { id: "replay-load" })),
-    make("div", { class: "controls", hidden: !moves },
-      button("back", "\u25c2\u25c2", "One stored frame back"),
-      button("play", "\u25b6", "Play"),
-      button("on", "\u25b8\u25b8", "One stored frame on"),
+      ...data.head.errors.map((_, k) => element("div", { id: "replay-who" + k, class: "who" })),
+      element("div", { id: "replay-legend" }),
+      element("div", { id: "replay-facts", "aria-live": "polite", hidden: true }),
+      element("div", { id: "replay-load" })),
+    element("div", { class: "controls", hidden: !moves },
+      control("back", "\u25c2\u25c2", "One stored frame back"),
+      control("play", "\u25b6", "Play"),
+      control("on", "\u25b8\u25b8", "One stored frame on"),
       slider("time", "", data.begin, data.end, data.begin),
-      make("output", { id: "replay-clock" }),
+      element("output", { id: "replay-clock" }),
       selection("rate", "speed", [["0.01", "1/100"], ["0.02", "1/50"], ["0.05", "1/20"],
         ["0.1", "1/10"], ["0.2", "1/5"], ["0.5", "1/2"], ["1", "1"], ["2", "2"]], "0.2")),
-    make("div", { class: "controls" },
+    element("div", { class: "controls" },
       selection("colour", "colour", colours, moves ? "speed" : "size"),
       selection("grains", "grains",
         [["solid", "solid"], ["ghost", "as glass"], ["hidden", "hidden"]], "solid"),
       ...hasContacts ? [tick("chains", "force chains"), slider("threshold", "above", 0, 5, 1),
-        make("output", { id: "replay-thresholdtext" }), tick("points", "contact points")] : [],
+        element("output", { id: "replay-thresholdtext" }), tick("points", "contact points")] : [],
       selection("cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]], ""),
       slider("cutat", "", 0, 1, 0.5),
-      make("span", { class: "views-along" }, "view ",
+      element("span", { class: "views-along" }, "view ",
         ...[["home", "home"], ["x", "x"], ["-x", "\u2212x"], ["y", "y"], ["-y", "\u2212y"],
-          ["z", "z"]].map(([name, text]) => button("view" + name, text,
+          ["z", "z"]].map(([name, text]) => control("view" + name, text,
           name === "home" ? "The first view" : "Look along " + name)))),
-    make("div", { class: "controls", id: "replay-errors", hidden: true }),
-    make("canvas", { id: "replay-plots", hidden: !data.head.plots.length,
+    element("div", { class: "controls", id: "replay-errors", hidden: true }),
+    element("canvas", { id: "replay-plots", hidden: !data.head.plots.length,
       "aria-label": "Curves of the run: a click goes to that moment" }));
-  element("sentence").hidden = true;
+  part("sentence").hidden = true;
 }
 
 // One ramp of the legend: words, its background, ticks [share, text]. A tick whose words would run
-// into those before is left out; `wide`: the legend's width in pixels.
-function rampLegend(words, background, ticks, wide) {
-  const bar = make("div", { class: "bar" }), row = make("div", { class: "ticks" });
+// into those before is left out.
+function rampLegend(words, background, ticks) {
+  const wide = matchMedia("(max-width:40rem)").matches ? 160 : 216;  // the legend, in pixels
+  const bar = element("div", { class: "bar" }), row = element("div", { class: "ticks" });
   bar.style.background = background;
   let end = -Infinity;
   for (const [at, text] of ticks) {
@@ -75,38 +69,37 @@ function rampLegend(words, background, ticks, wide) {
     const half = 3.5 * text.length, middle = Math.max(at * wide, row.children.length ? 0 : half);
     if (middle - half < end + 6) continue;
     end = middle + half;
-    const mark = make("span", {}, text);
+    const mark = element("span", {}, text);
     mark.style.left = 100 * at + "%";
     row.append(mark);
   }
-  return [make("b", {}, words), bar, row];
+  return [element("b", {}, words), bar, row];
 }
 
 // What colours mean: of grains, of force chains, of contact points.
 function drawLegend(shades, { colour, chains, points }, marks) {
-  const legend = element("legend"), { words, unit, ramp } = shades.choices[colour];
-  const wide = matchMedia("(max-width:40rem)").matches ? 160 : 216, parts = [];
+  const legend = part("legend"), { words, unit, ramp } = shades.choices[colour];
+  const parts = [];
   const classes = [0, 1, 2, 3, 4].map((k) =>
     `${cssColour(colourAt(ramps[ramp], (k + 0.5) / 5))} ${20 * k}% ${20 * k + 20}%`);
   const ticks = shades.ticks(colour), ground = colour !== "size" ? cssGradient(ramps[ramp]) :
     ticks.length > 1 ? "linear-gradient(90deg," + classes + ")" :
       cssColour(colourAt(ramps[ramp], 0.5));  // all of one size
   if (words)
-    parts.push(...rampLegend(words + (unit ? " / " + unit : ""), ground, ticks, wide));
+    parts.push(...rampLegend(words + (unit ? " / " + unit : ""), ground, ticks));
   if (chains)
     parts.push(...rampLegend("chains: force of a pair / N", cssGradient(markRamps.heat, 0.25, 0.9),
-      [0, 0.25, 0.5, 1].map((share) => [Math.sqrt(share), shown(share * marks.topChain, 2)]),
-      wide));
+      [0, 0.25, 0.5, 1].map((share) => [Math.sqrt(share), shown(share * marks.topChain, 2)])));
   if (points)
     parts.push(...rampLegend("points: share of friction used",
-      cssGradient(markRamps.water, 0.15, 1), [[0, "0"], [0.5, "0.5"], [1, "1"]], wide));
+      cssGradient(markRamps.water, 0.15, 1), [[0, "0"], [0.5, "0.5"], [1, "1"]]));
   legend.hidden = !parts.length;
   legend.replaceChildren(...parts);
 }
 
 // What is known of a picked grain.
 function drawFacts(data, picked, time) {
-  const facts = element("facts");
+  const facts = part("facts");
   facts.hidden = picked < 0;
   if (picked < 0) return;
   const { frame, next, u } = data.frameAt(time), at = data.contactsAt(time);
@@ -131,7 +124,7 @@ function drawFacts(data, picked, time) {
     const strongest = [...partners].sort((p, q) => q[1] - p[1]).slice(0, 4);
     for (const [body, sum] of strongest) rows.push(["\u00a0 " + name(body), shown(sum) + " N"]);
   }
-  facts.replaceChildren(make("b", {}, "grain " + picked), make("table", {},
-    make("tbody", {}, ...rows.map(([what, value]) =>
-      make("tr", {}, make("td", {}, what), make("td", {}, value))))));
+  facts.replaceChildren(element("b", {}, "grain " + picked), element("table", {},
+    element("tbody", {}, ...rows.map(([what, value]) =>
+      element("tr", {}, element("td", {}, what), element("td", {}, value))))));
 }

@@ -13,14 +13,14 @@ class Replay {
       cut: "", cutAt: 0.5, picked: -1 };
     this.quality = 1;
     buildPanel(data, this.shades);
-    this.options.colour = element("colour").value;
+    this.options.colour = part("colour").value;
     this.mesh = new Mesh(data);
     this.errors = new ErrorView(data);
     if (this.errors.isOn) Object.assign(this.options, { colour: "none", grains: "ghost" });
     this.errors.build(this);
-    this.stages = ["canvas", "second"].filter(element).map((id) =>
-      new Stage(element(id), data, this.mesh));
-    this.plots = new Plots(element("plots"), data, (time) => {
+    this.stages = ["canvas", "second"].filter(part).map((id) =>
+      new Stage(part(id), data, this.mesh));
+    this.plots = new Plots(part("plots"), data, (time) => {
       this.setPlaying(false);
       this.setTime(time);
     });
@@ -43,7 +43,7 @@ class Replay {
       this.plots.layOut(this.colours);
       this.set({});
     });
-    observer.observe(element("stage"));
+    observer.observe(part("stage"));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       this.readStyle();
       this.plots.layOut(this.colours);
@@ -52,7 +52,7 @@ class Replay {
     // what nobody sees is not drawn
     this.isSeen = true;
     new IntersectionObserver(([entry]) => { this.isSeen = entry.isIntersecting; }).observe(
-      element("stage"));
+      part("stage"));
     // a graphics card may be taken away and come back: then all begins anew
     for (const { canvas } of this.stages) {
       canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
@@ -72,15 +72,15 @@ class Replay {
     Object.assign(this.options, changes);
     const { options } = this;
     if (!(options.colour in this.shades.choices)) options.colour = "none";
-    for (const name of ["colour", "grains", "cut"]) element(name).value = options[name];
-    element("cutat").value = options.cutAt;
-    element("cutat").disabled = !options.cut;
+    for (const name of ["colour", "grains", "cut"]) part(name).value = options[name];
+    part("cutat").value = options.cutAt;
+    part("cutat").disabled = !options.cut;
     for (const name of ["chains", "points"])
-      if (element(name)) element(name).checked = options[name];
-    if (element("threshold")) {
-      element("threshold").disabled = !options.chains;
-      element("threshold").value = options.threshold;
-      element("thresholdtext").textContent = (+options.threshold).toFixed(1) + " × mean";
+      if (part(name)) part(name).checked = options[name];
+    if (part("threshold")) {
+      part("threshold").disabled = !options.chains;
+      part("threshold").value = options.threshold;
+      part("thresholdtext").textContent = (+options.threshold).toFixed(1) + " × mean";
     }
     if (this.errors.isOn) this.errors.drawLegend();
     else drawLegend(this.shades, options, this.marks);
@@ -119,8 +119,8 @@ class Replay {
   }
   setPlaying(on) {
     this.playing = on;
-    element("play").textContent = on ? "\u275a\u275a" : "\u25b6";
-    element("play").setAttribute("aria-label", on ? "Pause" : "Play");
+    part("play").textContent = on ? "\u275a\u275a" : "\u25b6";
+    part("play").setAttribute("aria-label", on ? "Pause" : "Play");
     if (on && this.time >= this.data.end) this.time = this.data.begin;
     this.last = 0;
     this.touched();
@@ -164,7 +164,7 @@ class Replay {
     if (numbers.length === 6)
       [camera.yaw, camera.pitch, camera.distance, ...camera.target] = numbers;
     else camera.along(view);
-    element("rate").value = this.rate = +choice.get("rate", this.first.rate);
+    part("rate").value = this.rate = +choice.get("rate", this.first.rate);
     if (this.errors.isOn) this.errors.read();
     this.time = clamp(+choice.get("t", data.begin), data.begin, data.end);
     this.setPlaying(!this.isCalm && choice.get("play") !== "0");
@@ -185,8 +185,8 @@ class Replay {
       stage.resize(this.moving ? this.quality : 1);
       stage.draw(this.look(picture), ramp);
     });
-    element("time").value = this.time;
-    element("clock").textContent = this.time.toFixed(3) + " s";
+    part("time").value = this.time;
+    part("clock").textContent = this.time.toFixed(3) + " s";
     drawFacts(this.data, this.options.picked, this.time);
     this.placeLoad();
     if (this.data.head.plots.length) this.plots.draw(this.time);
@@ -195,10 +195,10 @@ class Replay {
 
   // The words beside the load's arrow.
   placeLoad() {
-    const label = element("load"), { load } = this.marks, { f, x } = this.data.series;
+    const label = part("load"), { load } = this.marks, { f, x } = this.data.series;
     label.hidden = !load;
     if (!load) return;
-    const line = (one, name) => make("span", { class: one.ink },
+    const line = (one, name) => element("span", { class: one.ink },
       one.symbol + " = " + steady(this.data.seriesAt(name, this.time), one.values) + " " +
       one.unit);
     label.replaceChildren(line(f, "f"), line(x, "x"));
@@ -256,8 +256,8 @@ class Replay {
     window.ballastReplay.projected = projected;
     requestAnimationFrame((now) => replay.loop(now));
   } catch (error) {
-    element("sentence").hidden = false;
-    element("sentence").textContent = "Only a still picture: " + error.message + ".";
+    part("sentence").hidden = false;
+    part("sentence").textContent = "Only a still picture: " + error.message + ".";
     window.ballastReplayError = String(error.stack || error);
   }
 })();

@@ -44,8 +44,10 @@ uniform int picked;
 out vec3 place, edge;
 flat out vec3 albedo, facing;
 flat out float chosen;
+flat out uint number;
 void main() {
   vec4 p, q;
+  number = grain + 1u;
   pose(grain, p, q);
   place = p.xyz + turn(q, corner * scale);
   facing = turn(q, normal);
@@ -97,20 +99,6 @@ void main() {
 }`;
 
 // The number of the grain as a colour.
-const numberVertex = poseText + `
-layout(location = 0) in vec3 corner;
-layout(location = 1) in uint grain;
-uniform mat4 camera;
-uniform float scale;
-flat out uint number;
-out vec3 place;
-void main() {
-  vec4 p, q;
-  pose(grain, p, q);
-  place = p.xyz + turn(q, corner * scale);
-  number = grain + 1u;
-  gl_Position = camera * vec4(place, 1.);
-}`;
 const numberFragment = `
 flat in uint number;
 in vec3 place;
@@ -209,5 +197,5 @@ void main() {
   colour = vec4(srgb(hue.rgb * (radius < 1.6 ? 1. : light)), alpha * hue.a);
 }`;
 
-const programTexts = { grain: [grainVertex, grainFragment], number: [numberVertex, numberFragment],
+const programTexts = { grain: [grainVertex, grainFragment], number: [grainVertex, numberFragment],
   plane: [planeVertex, planeFragment], rod: [rodVertex, rodFragment] };

@@ -6,6 +6,10 @@ const quantile = (values, share) => {
   return sorted.length ? sorted[Math.floor(share * (sorted.length - 1))] : 0;
 };
 
+// About `count` of many, evenly.
+const sampled = (all, count) =>
+  all.filter((_, k) => k % Math.max(1, Math.floor(all.length / count)) === 0);
+
 class Shades {
   constructor(data) {
     this.data = data;
@@ -22,15 +26,14 @@ class Shades {
     const top = (values) => quantile(values, 0.999) || 1;
     const root = { share: (v, most) => Math.sqrt(v / most), ramp: "heat" };
     const even = { share: (v, most) => v / most, ramp: "heat" };
+    const between = (of) => (g, f, n, u) => of(g, f) * (1 - u) + of(g, n) * u;
     this.choices = {
       speed: { words: "speed", unit: "m/s", factor: 1, top: top(speeds), ...root,
-        value: (g, f, n, u) => this.speed(g, f) * (1 - u) + this.speed(g, n) * u },
+        value: between((g, f) => this.speed(g, f)) },
       displacement: { words: "displacement since the start", unit: "mm", factor: 1e3,
-        top: top(moves), ...even,
-        value: (g, f, n, u) => this.moved(g, f) * (1 - u) + this.moved(g, n) * u },
+        top: top(moves), ...even, value: between((g, f) => this.moved(g, f)) },
       rotation: { words: "rotation since the start", unit: "\u00b0", factor: 180 / Math.PI,
-        top: top(turns), ...even,
-        value: (g, f, n, u) => this.turnedBy(g, f) * (1 - u) + this.turnedBy(g, n) * u },
+        top: top(turns), ...even, value: between((g, f) => this.turnedBy(g, f)) },
       force: { words: "force carried", unit: "N", factor: 1, top: 1, ...root,
         value: (g) => this.carried ? this.carried[g] : 0 },
       size: { words: "size class: diameter of the sphere of equal volume", unit: "mm",
@@ -45,8 +48,7 @@ class Shades {
   }
 
   speed(g, f) {
-    const v = [0, 1, 2].map((k) => this.data.velocityOf(f, g, k));
-    return norm(v);
+    return norm([0, 1, 2].map((k) => this.data.velocityOf(f, g, k)));
   }
   moved(g, f) {
     return Math.hypot(...[0, 1, 2].map((k) =>
@@ -68,10 +70,9 @@ class Shades {
     return sum;
   }
   topForce() {
-    const frames = this.data.contactFrames, all = [];
-    for (let k = 0; k < frames.length; k += Math.max(1, Math.floor(frames.length / 12)))
-      all.push(...this.forcesIn(frames[k]));
-    return quantile(all, 0.995) || 1;
+    const frames = sampled(this.data.contactFrames, 12);
+    const sums = frames.flatMap((frame) => [...this.forcesIn(frame)]);
+    return quantile(sums, 0.995) || 1;
   }
 
   // Moves the data to a time, coloured by `name`.

@@ -13,15 +13,26 @@
 using namespace ballast;
 namespace fs = std::filesystem;
 
+namespace {
+
+/// A small comparison; `more` after it. (Sanitizers reserve terabytes: no limit of memory.)
+std::vector<std::string> comparison(const fs::path& output, const std::string& solvers,
+                                    const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
+                                    "--solvers",    solvers,
+                                    "--tolerances", "1e-2",
+                                    "--memory",     "0",
+                                    "--output",     output.string()};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+}  // namespace
+
 TEST_CASE("a comparison leaves its table and its page, and the same command goes on") {
   const TemporaryFolder folder;
   const std::filesystem::path output = folder.path() / "compared";
-  const std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
-                                          "--solvers",    "pgs,nncg",
-                                          "--tolerances", "1e-2",
-                                          "--memory",     "0",  // sanitizers reserve terabytes
-                                          "--output",     output.string()};
-  const ProgramResult first = ballast_program(words);
+  const ProgramResult first = ballast_program(comparison(output, "pgs,nncg"));
   INFO(first.errors);
   REQUIRE(first.status == 0);
   CHECK_THAT(first.output, Catch::Contains("  1/2  known-b4-c6x1-R1-s1") &&
@@ -35,9 +46,7 @@ TEST_CASE("a comparison leaves its table and its page, and the same command goes
   CHECK_THAT(read_whole_file(output / "manifest.json"),
              Catch::Contains("ballast compare known:contacts=6,bodies=4"));
   std::filesystem::remove(output / "compare.html");
-  std::vector<std::string> again = words;
-  again.push_back("--no-report");
-  const ProgramResult second = ballast_program(again);
+  const ProgramResult second = ballast_program(comparison(output, "pgs,nncg", {"--no-report"}));
   CHECK(second.status == 0);
   CHECK_THAT(second.output, Catch::Contains("(was there)") && !Catch::Contains("compare.html"));
   CHECK_FALSE(std::filesystem::exists(output / "compare.html"));
@@ -45,18 +54,11 @@ TEST_CASE("a comparison leaves its table and its page, and the same command goes
 
 TEST_CASE("jobs of a comparison are merged, and a quiet one says nothing") {
   const TemporaryFolder folder;
-  std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
-                                    "--tolerances", "1e-2",
-                                    "--memory",     "0",
-                                    "--quiet",      "--no-report",
-                                    "--solvers",    "",
-                                    "--output",     ""},
-                           merge = {"compare", "merge"};
+  std::vector<std::string> merge = {"compare", "merge"};
   for (const char* solver : {"pgs", "nncg"}) {
-    words[9] = solver;
-    words[11] = (folder.path() / solver).string();
-    merge.push_back(words[11]);
-    const ProgramResult quiet = ballast_program(words);
+    merge.push_back((folder.path() / solver).string());
+    const ProgramResult quiet =
+        ballast_program(comparison(merge.back(), solver, {"--quiet", "--no-report"}));
     CHECK(quiet.status == 0);
     CHECK(quiet.output.empty());
   }
@@ -109,12 +111,7 @@ TEST_CASE("what became of a comparison is told, with an exit code") {
 
 TEST_CASE("programs are compared alone where no backend is wanted") {
   const TemporaryFolder folder;
-  std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
-                                    "--solvers",    "none",
-                                    "--tolerances", "1e-2",
-                                    "--memory",     "0",
-                                    "--output",     (folder.path() / "out").string(),
-                                    "--no-report"};
+  std::vector<std::string> words = comparison(folder.path() / "out", "none", {"--no-report"});
   check_failure(ballast_program(words), ExitCode::usage, {"--solvers none: expected a program"});
   words.insert(words.end(),
                {"--external", std::string("own=") + BALLAST_PROGRAM + " answer --solver pgs"});
@@ -137,11 +134,7 @@ TEST_CASE("a comparison that cannot be had is one line") {
 TEST_CASE("a damaged row is made again, and a folder of somebody's is left alone") {
   const TemporaryFolder folder;
   const std::filesystem::path output = folder.path() / "compared";
-  const std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
-                                          "--solvers",    "pgs",
-                                          "--tolerances", "1e-2",
-                                          "--memory",     "0",
-                                          "--output",     output.string()};
+  const std::vector<std::string> words = comparison(output, "pgs");
   REQUIRE(ballast_program(words).status == 0);
   const auto row = std::filesystem::directory_iterator(output / "rows")->path();
   const std::string whole = read_whole_file(row);
@@ -156,8 +149,7 @@ TEST_CASE("a damaged row is made again, and a folder of somebody's is left alone
   const std::filesystem::path theirs = folder.path() / "theirs";
   create_folder(theirs);
   write_whole_file(theirs / "results.csv", "the user's own");
-  std::vector<std::string> elsewhere = words;
-  elsewhere.back() = theirs.string();
-  check_failure(ballast_program(elsewhere), ExitCode::failure, {theirs.string(), "holds files"});
+  check_failure(ballast_program(comparison(theirs, "pgs")), ExitCode::failure,
+                {theirs.string(), "holds files"});
   CHECK(read_whole_file(theirs / "results.csv") == "the user's own");
 }

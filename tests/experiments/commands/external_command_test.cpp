@@ -182,17 +182,12 @@ TEST_CASE("the examples in Python solve") {
   }
   const TemporaryFolder folder;
   const std::string examples = std::string(BALLAST_SOURCE_FOLDER) + "/examples/external/";
-  std::vector<std::string> words = {"compare",
-                                    "known:contacts=10,bodies=6",
-                                    "--solvers",
-                                    "pgs",
-                                    "--tolerances",
-                                    "1e-4",
-                                    "--memory",
-                                    "0",
-                                    "--no-report",
-                                    "--output",
-                                    (folder.path() / "out").string()};
+  std::vector<std::string> words = {"compare",      "known:contacts=10,bodies=6",
+                                    "--solvers",    "pgs",
+                                    "--tolerances", "1e-4",
+                                    "--memory",     "0",
+                                    "--no-report"};
+  words.insert(words.end(), {"--output", (folder.path() / "out").string()});
   for (const char* name : {"gauss_seidel", "conic_scipy"})
     words.insert(words.end(), {"--external", std::string(name) + "=" + python + " -B '" + examples +
                                                  name + ".py'"});

@@ -1,4 +1,4 @@
-// What there is: solvers, scenes, keys, version.
+// What there is: solvers, scenes, keys.
 
 #include "experiments/page/markdown.hpp"
 #include "platform/atomic_file.hpp"
@@ -29,12 +29,6 @@ TEST_CASE("scenes are listed, printed, resolved") {
   const ProgramResult changed = ballast_program({"scenes", "incline", "--set", "scene.step=1e-5"});
   CHECK_THAT(changed.output, Catch::Contains("step = 1e-05"));
   check_failure(ballast_program({"scenes", "none"}), ExitCode::failure, {"none", "vibrated_box"});
-}
-
-TEST_CASE("the version names commit, compiler and libraries") {
-  const ProgramResult version = ballast_program({"version"});
-  for (const char* part : {"commit", "compiler", "flags", "Eigen", "processor"})
-    CHECK_THAT(version.output, Catch::Contains(part));
 }
 
 namespace {
@@ -109,29 +103,4 @@ TEST_CASE("docs/manual/scenes.md has the tables by which scenes are read, to the
                   {"orientation.", orientation_keys(orientation)},
                   {"force.", force_keys(body.force)}})})
     CHECK_THAT(docs + '\n', Catch::Contains(table));
-}
-
-TEST_CASE("docs/manual/scenes.md describes every key that a scene can have") {
-  const std::string docs = read_whole_file(BALLAST_SOURCE_FOLDER "/docs/manual/scenes.md");
-  REQUIRE(docs.size() > 1000);
-  int keys = 0;
-  for (const char* name :
-       {"vibrated_box", "rolling_sphere", "shaken_plate", "empty_driven_wall", "overhang"}) {
-    std::istringstream resolved(resolved_scene_text(find_scene(name)));
-    std::string section;
-    for (std::string line; std::getline(resolved, line);) {
-      if (line.starts_with('['))
-        section =
-            line.substr(line.find_last_of("[.") + 1, line.find(']') - line.find_last_of("[.") - 1);
-      if (line.find(" = ") == std::string::npos) continue;
-      ++keys;
-      const std::string key = line.substr(0, line.find(" = "));
-      INFO(name << ": " << section << "." << key);
-      // written `section.key`, or `key` alone in the tables of bodies and walls and in pairs of
-      // keys
-      CHECK((docs.find(section + "." + key + "`") != std::string::npos ||
-             docs.find("`" + key + "`") != std::string::npos));
-    }
-  }
-  CHECK(keys > 100);
 }

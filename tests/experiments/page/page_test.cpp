@@ -1,5 +1,7 @@
 #include "experiments/page/page.hpp"
 
+#include <cmath>
+
 #include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/environment_guard.hpp"
@@ -12,15 +14,7 @@ namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 
 Picture picture(const std::string& name) {
-  Curve curve;
-  curve.x = {0, 1};
-  curve.y = {1, 2};
-  Panel panel;
-  panel.curves = {curve};
-  Picture result;
-  result.plot.name = name;
-  result.plot.panels = {panel};
-  return result;
+  return {.plot = {.name = name, .panels = {{.curves = {{.x = {0, 1}, .y = {1, 2}}}}}}};
 }
 
 Page page_with(std::vector<Picture> pictures) {
@@ -54,7 +48,7 @@ TEST_CASE("a picture for pages that show its file is on white, its script gone")
 TEST_CASE("what cannot be drawn is dropped and said; what has no panel is dropped") {
   const TemporaryFolder folder;
   Picture wrong = picture("wrong"), bare = picture("bare");
-  wrong.plot.panels[0].curves[0].y.pop_back();
+  wrong.plot.panels[0].curves[0].y.assign(2, std::nan(""));
   bare.plot.panels.clear();
   Page page = page_with({wrong, bare, picture("one")});
   draw_pictures(page, folder.path());

@@ -13,7 +13,7 @@ inline Page small_page() {
   table.head = {"phase", marked("*t*~step~\n(ms)")};
   table.rows = {{"a | b", number(1.5)}, {styled("all", strong), quantity(2e-4, "ms")}};
   table.is_number = {false, true};
-  Table facts = facts_table();
+  Table facts{.is_facts = true};
   facts.rows = {{"commit", Text("0123", code)}};
   Picture picture;
   picture.plot.name = "wall";
@@ -31,7 +31,7 @@ inline Page small_page() {
   page.add(
       {"rest",
        "The rest",
-       {picture, List{{"one", "two"}}, Listing{"a <b>\n```\n"}, Folded{"All of it", "x = 1"}}});
+       {picture, List{{"one", "two"}}, Listing{"a <b>\n```\n"}, Listing{"x = 1", "All of it"}}});
   page.end = "The end.";
   return page;
 }

@@ -65,16 +65,11 @@ TEST_CASE("captions say the run's own numbers") {
              Contains("before the drive, 0.5010 (paper: 0.50)") &&
                  Contains(plain_words(page::number(box.summary.compaction.gain)) + " per period"));
   CHECK_THAT(caption(figure_4(box.data, box.summary)), Contains("Dashed: least squares"));
+  RunSummary without_fits = box.summary;
+  without_fits.law.active.r2 = not_known;
+  CHECK_THAT(caption(figure_4(box.data, without_fits)), !Contains("Dashed"));
   CHECK_THAT(caption(diagnostic_figures(box.data, box.summary).at(0)),
              Contains("While f is above its mean"));
-}
-
-TEST_CASE("without fits the caption doesn't speak of them") {
-  BoxRun box = box_run();
-  box.summary.law.active.r2 = not_known;
-  const page::Picture picture = figure_4(box.data, box.summary);
-  CHECK(picture.plot.panels.at(0).curves.size() == 4);
-  CHECK_THAT(plain_words(picture.caption.at(0)), !Contains("Dashed"));
 }
 
 const page::Picture* find(const std::vector<page::Picture>& pictures, const std::string& name) {
@@ -92,6 +87,10 @@ TEST_CASE("a slide without overlap has no figure of it, and no jam") {
   REQUIRE(find(figures, "error"));
   CHECK_THAT(plain_words(find(figures, "error")->caption.at(0)),
              Contains("Gravity is not known, so that the error is in m/s."));
+  // the record is balanced: its residual stays at rounding
+  REQUIRE(find(figures, "energy"));
+  for (const double residual : find(figures, "energy")->plot.panels.back().curves.at(1).y)
+    CHECK(residual < 1e-12);
 }
 
 TEST_CASE("errors are drawn over g h when gravity is known, with the tolerance") {
@@ -106,14 +105,6 @@ TEST_CASE("errors are drawn over g h when gravity is known, with the tolerance")
   const double largest =
       *std::max_element(panel.curves.at(1).y.begin(), panel.curves.at(1).y.end());
   CHECK(largest == Approx(box.summary.error_max_relative));
-}
-
-TEST_CASE("the residual of a balanced record stays at rounding") {
-  const BoxRun slide = slide_run();
-  const auto figures = diagnostic_figures(slide.data, slide.summary);
-  REQUIRE(find(figures, "energy"));
-  const Panel& below = find(figures, "energy")->plot.panels.back();
-  for (const double residual : below.curves.at(1).y) CHECK(residual < 1e-12);
 }
 
 }  // namespace

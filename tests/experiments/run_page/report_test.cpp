@@ -90,14 +90,6 @@ TEST_CASE("the box's page says the numbers beside what is asked and what the pap
   CHECK_THAT(page, Contains("scene.toml is missing"));
 }
 
-TEST_CASE("a missed bound is marked") {
-  const TemporaryFolder folder;
-  auto steps = synthetic_box();
-  for (StepRecord& step : steps) step.penetration_max += 1e-3;
-  write_rows(folder.path(), steps);
-  CHECK_THAT(page_of(folder), Contains("✗ missed"));
-}
-
 TEST_CASE("names from files are escaped") {
   const TemporaryFolder folder;
   write_rows(folder.path(), synthetic_slide());
@@ -127,8 +119,15 @@ TEST_CASE("a sliding cube has no wall and no packing on its page") {
     CHECK_THAT(page, !Contains("<figure id=\"" + std::string(name) + "\">"));
   CHECK_THAT(page, !Contains("Solid fraction") && !Contains("Motion of the wall") &&
                        Contains("manifest.json is missing"));
-  CHECK_THAT(page, Contains("errors are given in m/s"));
+  CHECK_THAT(page, Contains("errors are given in m/s") && !Contains("Jammed"));
   CHECK(nesting_fault(page) == "");
+  // of a record with nothing but the time there is still a page
+  std::vector<std::string> others;
+  for (const StepColumn& column : step_columns().subspan(1)) others.push_back(column.name);
+  write_rows(folder.path(), synthetic_slide(), others);
+  const std::string bare = page_of(folder);
+  CHECK_THAT(bare, Contains("The record has no column wall_x, wall_v"));
+  CHECK(nesting_fault(bare) == "");
 }
 
 TEST_CASE("every column but time may be missing, one by one") {
@@ -154,18 +153,6 @@ TEST_CASE("figures that lack their column are named, the others are drawn") {
   CHECK_THAT(page, Contains("<figure id=\"fig03\">") && Contains("<figure id=\"fig12\">"));
   CHECK_THAT(page, Contains("figure fig04: nothing to draw") && !Contains("<figure id=\"fig04\">"));
   CHECK_FALSE(fs::exists(folder.path() / "figures" / "fig04.svg"));
-}
-
-TEST_CASE("only the time: still a page") {
-  const TemporaryFolder folder;
-  std::vector<StepRecord> steps(3);
-  for (int k = 0; k < 3; ++k) steps[k].time = 0.1 * (k + 1);
-  std::vector<std::string> others;
-  for (const StepColumn& column : step_columns().subspan(1)) others.push_back(column.name);
-  write_rows(folder.path(), steps, others);
-  const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("The record has no column wall_x, wall_v"));
-  CHECK(nesting_fault(page) == "");
 }
 
 TEST_CASE("NaN, infinity and one single step") {
@@ -224,39 +211,6 @@ TEST_CASE("the scene's parameters are on the page") {
   CHECK_THAT(page, Contains("<h1>The paper&#39;s vibrated box") && Contains("density = 2700") &&
                        Contains("The whole scene (scene.toml)"));
   CHECK_THAT(page, !Contains("To be known before reading"));
-}
-
-TEST_CASE("without gnuplot the page has its tables and says why there is no figure") {
-  const TemporaryFolder folder, empty;
-  write_box(folder);
-  const EnvironmentGuard guard("PATH", empty.path().string());
-  const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("gnuplot was not found") && !Contains("<figure") &&
-                       Contains("The run in numbers") && Contains("≤\u00a00.001"));
-}
-
-TEST_CASE("a failing gnuplot costs its figures, not the page") {
-  const TemporaryFolder folder, path;
-  write_box(folder);
-  // answers --version, fails on Fig. 4, otherwise draws an empty picture
-  const fs::path program =
-      path.write("gnuplot",
-                 "#!/bin/sh\ncase \"$2\" in *fig04*) echo 'no ink' >&2; exit 1;; esac\n"
-                 "echo '<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>'\n");
-  fs::permissions(program, fs::perms::owner_all);
-  const EnvironmentGuard guard("PATH", path.path().string());
-  const std::string page = page_of(folder);
-  CHECK_THAT(page, Contains("figure fig04: gnuplot failed (1): no ink") &&
-                       !Contains("<figure id=\"fig04\">"));
-  CHECK_THAT(page, Contains("<figure id=\"fig03\">") && Contains("<figure id=\"energy\">"));
-}
-
-TEST_CASE("an unwritable folder is an error that names the page") {
-  const TemporaryFolder folder, empty;
-  write_rows(folder.path(), synthetic_slide());
-  fs::create_directory(folder.path() / "report.html");
-  const EnvironmentGuard guard("PATH", empty.path().string());
-  CHECK_THROWS_WITH(write_report(folder.path()), Contains("report.html"));
 }
 
 /// The row whose first cell begins so, as plain words.
@@ -320,13 +274,6 @@ TEST_CASE("what is not known takes no row, and a group without rows no heading")
   CHECK(has_row("Overlap"));
   summary.penetration_mean = not_known;
   CHECK_FALSE(has_row("Overlap"));
-}
-
-TEST_CASE("without a wall and a packing nothing is said of them") {
-  const page::Table table = results_table(slide_run().summary);
-  for (const auto& row : table.rows)
-    CHECK_THAT(plain_words(row[0]), !Contains("Jammed") && !Contains("Solid fraction"));
-  CHECK(periods_table(slide_run().summary).rows.empty());
 }
 
 TEST_CASE("a row for each whole period, its number counted from the drive's start") {
