@@ -123,16 +123,13 @@ inline constexpr SizeLimit pyramid_lemke_limit{.contacts = 100, .with_friction =
 std::unique_ptr<Solver> make_ipopt();
 bool has_ipopt();
 
-/// The same program by NLopt's gradient-based optimisers for constraints (Johnson, NLopt): SLSQP
-/// (Kraft 1994) and MMA (Svanberg 2002). Contacts at the apex of their cone, as a projected
-/// gradient step tells, are left out of a round; the others have |r_T| <= mu r_N. NLopt keeps the
-/// Jacobian dense, and SLSQP a dense factor of the Hessian: larger problems are declined. An
-/// iteration is one evaluation of the objective.
-enum class NloptMethod { slsqp, mma };
-std::unique_ptr<Solver> make_nlopt(NloptMethod method);
+/// The same program by SLSQP (Kraft 1994) of NLopt (Johnson). Contacts at the apex of their cone,
+/// as a projected gradient step tells, are left out of a round; the others have |r_T| <= mu r_N.
+/// NLopt keeps the Jacobian dense, and SLSQP a factor of the Hessian: larger problems are declined.
+/// An iteration is one evaluation of the objective.
+std::unique_ptr<Solver> make_nlopt();
 bool has_nlopt();
-inline constexpr SizeLimit nlopt_slsqp_limit{.contacts = 60, .with_friction = 60};
-inline constexpr SizeLimit nlopt_mma_limit{.contacts = 400, .with_friction = 12};
+inline constexpr SizeLimit nlopt_limit{.contacts = 60, .with_friction = 60};
 
 /// Siconos' numerics (https://nonsmooth.gricad-pages.univ-grenoble-alpes.fr/siconos): the field's
 /// reference, solvers of its FrictionContactProblem  u = W r + q, mu. Its own formulas are in

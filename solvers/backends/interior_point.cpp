@@ -19,197 +19,23 @@ struct ConePoint {
   Eigen::VectorXd g;  ///< dual variable [m/s], which becomes u + s n
 };
 
-// One step with s held. Each contact is a pair in Lorentz's cone, x = (mu r_N, r_T) and z = (g_N /
-// mu, g_T); without friction a pair on the half-line, x = r_N, z = g_N, and r_T = 0. With S =
-// diag(mu, 1, 1), F the scaling (F x = F^-1 z = lambda) and the residual e = u + s n - g, a step
-// solves
-//
-//   (W + P) dr = -e + S F (lambda \ c),   P = S F^2 S,   dg = S (F (lambda \ c) - F^2 S dr)
-//
-// first with c = -lambda o lambda (predictor), then with c = sigma nu 1 - lambda o lambda
-// - (F dx) o (F^-1 dz) (corrector), nu the mean of x.z. o and \ are the Jordan product and its
-// inverse.
-class ConeStep {
- public:
-  void prepare(ContactOperator& w) {
-    w_ = &w;
-    system_.prepare(w);
-    for (Eigen::VectorXd* x : {&right_, &dr_, &dg_}) x->resize(w.problem().row_count());
-    scaling_.resize(w.contact_count());
-    target_.resize(w.contact_count());
-  }
-  void use_team(WorkerTeam* team) { system_.use_team(team); }
-
-  /// Scales the cones at `point` and factors. False: the point is not inside by rounding, or the
-  /// matrix not definite; then advance() must not be called.
-  bool factor(const ConePoint& point) {
-    for (int c = 0; c < w_->contact_count(); ++c)
-      if (!scale_contact(point, c)) return false;
-    return system_.factor();
-  }
-
-  /// sum of x.z over the contacts that move [J], at the point of factor(): x.z = (F x).(F^-1 z) =
-  /// |lambda|^2.
-  double product() const {
-    double sum = 0.0;
-    for (int c = 0; c < w_->contact_count(); ++c)
-      if (moves(c)) sum += scaling_[c].lambda.squaredNorm();
-    return sum;
-  }
-
-  /// sum of x_0 over the contacts that move [N s].
-  double head_impulses(const Eigen::VectorXd& r) const {
-    double sum = 0.0;
-    for (int c = 0; c < w_->contact_count(); ++c)
-      if (moves(c)) sum += to_cone(r, c)[0];
-    return sum;
-  }
-
-  /// Contacts that move.
-  int cones() const {
-    return static_cast<int>(
-        std::count_if(w_->rho().begin(), w_->rho().end(), [](double rho) { return rho > 0.0; }));
-  }
-
-  /// Moves the point of factor() by predictor and corrector; `u` are the velocities that its
-  /// impulses give. False: the new point is not finite.
-  bool advance(const SlipShift& shift, const Eigen::VectorXd& u, ConePoint& point) {
-    const int moving = cones();
-    const double nu = moving > 0 ? product() / moving : 0.0;
-    // Predictor: straight to the solution, and how far along it the cones allow.
-    for (int c = 0; c < w_->contact_count(); ++c)
-      target_[c] = -lorentz::product(scaling_[c].lambda, scaling_[c].lambda);
-    solve_newton(shift, u, point);
-    const double predicted = longest(point, 1.0);
-    // Corrector: back to the middle as much as the predictor fell short, and its second-order term.
-    // Mehrotra's choice: a predictor that could go all the way leaves sigma = 0 and nothing is
-    // centred; one that was blocked at once gives sigma = 1.
-    const double sigma = std::pow(1.0 - predicted, 3.0);
-    for (int c = 0; c < w_->contact_count(); ++c) {
-      const Vector dx = scaling_[c].f * to_cone(dr_, c),
-                   dz = scaling_[c].f_inverse * to_dual(dg_, c);
-      target_[c] -= lorentz::product(dx, dz);
-      target_[c][0] += sigma * nu;
-    }
-    solve_newton(shift, u, point);
-    // Stopping short of the boundary: on it the next scaling would not exist.
-    const double length = longest(point, 0.99);
-    point.r += length * dr_;
-    point.g += length * dg_;
-    return point.r.allFinite() && point.g.allFinite();
-  }
-
- private:
-  bool moves(int c) const { return w_->rho()[c] > 0.0; }
-  bool half_line(int c) const { return !(w_->friction(c) > 0.0); }
-
-  /// x = (mu r_N, r_T): in Lorentz's cone exactly where |r_T| <= mu r_N.
-  Vector to_cone(const Eigen::VectorXd& r, int c) const {
-    const Vector x = w_->at(r, c);
-    return half_line(c) ? Vector(x[0], 0.0, 0.0) : Vector(w_->friction(c) * x[0], x[1], x[2]);
-  }
-  /// z = (g_N / mu, g_T): in the same cone exactly where mu |g_T| <= g_N, and x.z = r.g.
-  Vector to_dual(const Eigen::VectorXd& g, int c) const {
-    const Vector z = w_->at(g, c);
-    return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(z[0] / w_->friction(c), z[1], z[2]);
-  }
-  /// S z: from the cone's rows to a velocity; its inverse maps to an impulse.
-  Vector from_dual(const Vector& z, int c) const {
-    return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(w_->friction(c) * z[0], z[1], z[2]);
-  }
-
-  /// The blocks P and P^-1 of one contact.
-  bool scale_contact(const ConePoint& point, int c) {
-    Eigen::Matrix3d &p = system_.shift[c], &inverse_p = system_.sigma[c];
-    // What may not move does not: a huge P allows no dr.
-    constexpr double nothing = 1e-20;
-    const double lambda_max = moves(c) ? 1.0 / w_->rho()[c] : 1.0;
-    inverse_p = nothing / lambda_max * Eigen::Matrix3d::Identity();
-    p = lambda_max / nothing * Eigen::Matrix3d::Identity();
-    if (!moves(c)) return true;
-    lorentz::Scaling& scaling = scaling_[c];
-    if (!lorentz::scale(to_cone(point.r, c), to_dual(point.g, c), half_line(c), scaling))
-      return false;
-    // F^2 takes x to z. It grows without bound where the impulse of an opening contact vanishes,
-    // and vanishes where the velocity of a sticking one does. The bounds keep W + P within what a
-    // factorisation in doubles can take.
-    constexpr double least_shift = 1e-12;
-    const double least = least_shift * lambda_max, most = lambda_max / least_shift;
-    const auto bounded = [=](double e) { return std::clamp(e, least, most); };
-    if (half_line(c)) {
-      p(0, 0) = bounded(scaling.eigenvalues[0]);
-      inverse_p(0, 0) = 1.0 / p(0, 0);
-      return true;
-    }
-    // P = S F^2 S and its inverse, both from the eigenvalues of F^2: neither is inverted from the
-    // other.
-    const Vector s(w_->friction(c), 1.0, 1.0), inverse = s.cwiseInverse();
-    p = s.asDiagonal() * scaling.of_square(bounded) * s.asDiagonal();
-    inverse_p = inverse.asDiagonal() * scaling.of_square([&](double e) {
-      return 1.0 / bounded(e);
-    }) * inverse.asDiagonal();
-    return true;
-  }
-
-  /// dr, dg for the complementarity residuals in target_.
-  void solve_newton(const SlipShift& shift, const Eigen::VectorXd& u, const ConePoint& point) {
-    // The right-hand side -e + S F (lambda \ c), zero where nothing moves.
-    for (int c = 0; c < w_->contact_count(); ++c) {
-      Vector b = Vector::Zero();
-      if (moves(c)) {
-        const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
-        b = w_->at(point.g, c) - shift.shifted(*w_, u, c) + from_dual(scaling_[c].f * pull, c);
-        if (half_line(c)) b[1] = b[2] = 0.0;
-      }
-      w_->put(right_, c, b);
-    }
-    // From lambda o (F dx + F^-1 dz) = c: dz = F (lambda \ c - F dx). Refined once, against the
-    // scaling's huge range.
-    system_.solve(right_, dr_, 1);
-    for (int c = 0; c < w_->contact_count(); ++c) {
-      Vector dr = w_->at(dr_, c);
-      if (half_line(c)) dr[1] = dr[2] = 0.0;
-      if (!moves(c)) dr.setZero();
-      w_->put(dr_, c, dr);
-      const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
-      const Vector dz = scaling_[c].f * (pull - scaling_[c].f * to_cone(dr_, c));
-      w_->put(dg_, c, moves(c) ? from_dual(dz, c) : Vector::Zero());
-    }
-  }
-
-  /// `part` of the longest step that stays in all cones, at most a whole one.
-  double longest(const ConePoint& point, double part) const {
-    double step = 1.0 / part;
-    for (int c = 0; c < w_->contact_count(); ++c)
-      if (moves(c)) {
-        step = lorentz::longest_step(to_cone(point.r, c), to_cone(dr_, c), step);
-        step = lorentz::longest_step(to_dual(point.g, c), to_dual(dg_, c), step);
-      }
-    return std::min(1.0, part * step);
-  }
-
-  ContactOperator* w_ = nullptr;
-  ShiftedDelassus system_;
-  std::vector<lorentz::Scaling> scaling_;
-  std::vector<Vector> target_;  ///< c above
-  Eigen::VectorXd right_, dr_, dg_;
-};
-
 // Judged and returned is P_K(r - rho g): open contacts have no impulse there, though the point's
 // own r lies inside the cones.
 class InteriorPoint final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
     w_.prepare(problem);
-    cone_step_.prepare(w_);
+    system_.prepare(w_);
+    scaling_.resize(problem.contact_count());
+    target_.resize(problem.contact_count());
     free_contact_velocity(problem, q_);
-    for (Eigen::VectorXd* x : {&u_, &point_.r, &point_.g, &rounded_u_})
+    for (Eigen::VectorXd* x : {&u_, &point_.r, &point_.g, &rounded_u_, &right_, &dr_, &dg_})
       x->resize(problem.row_count());
     is_polisher_ready_ = false;  // its order and analysis are dear, and most solves do without
   }
 
   void use_team(WorkerTeam* team) override {
-    cone_step_.use_team(team);
+    system_.use_team(team);
     polisher_->use_team(team);
   }
 
@@ -294,14 +120,168 @@ class InteriorPoint final : public Solver {
     w_.velocity(point_.r, u_);
   }
 
+  // One step with s held. Each contact is a pair in Lorentz's cone, x = (mu r_N, r_T) and z = (g_N
+  // / mu, g_T); without friction a pair on the half-line, x = r_N, z = g_N, and r_T = 0. With S =
+  // diag(mu, 1, 1), F the scaling (F x = F^-1 z = lambda) and the residual e = u + s n - g, a step
+  // solves
+  //
+  //   (W + P) dr = -e + S F (lambda \ c),   P = S F^2 S,   dg = S (F (lambda \ c) - F^2 S dr)
+  //
+  // first with c = -lambda o lambda (predictor), then with c = sigma nu 1 - lambda o lambda
+  // - (F dx) o (F^-1 dz) (corrector), nu the mean of x.z. o and \ are the Jordan product and its
+  // inverse.
   bool step() {
-    if (!cone_step_.factor(point_)) return false;
+    if (!factor()) return false;
     // A new s begins at the last iterate whose barrier was not yet below what s had still to move:
     // nearer to the cones' sides it could not follow. Both sides are energies: the sum of x.z, and
     // what s has to move times the sum of mu r_N.
-    const double moves = shift_.distance(w_, u_) * cone_step_.head_impulses(point_.r);
-    if (!(cone_step_.product() < moves)) before_ = point_;
-    return cone_step_.advance(shift_, u_, point_);
+    if (!(product() < shift_.distance(w_, u_) * head_impulses())) before_ = point_;
+    return advance();
+  }
+
+  /// Scales the cones at the point and factors. False: it is not inside by rounding, or the matrix
+  /// not definite.
+  bool factor() {
+    for (int c = 0; c < w_.contact_count(); ++c)
+      if (!scale_contact(c)) return false;
+    return system_.factor();
+  }
+
+  /// sum of x.z over the contacts that move [J]: x.z = (F x).(F^-1 z) = |lambda|^2.
+  double product() const {
+    double sum = 0.0;
+    for (int c = 0; c < w_.contact_count(); ++c)
+      if (moves(c)) sum += scaling_[c].lambda.squaredNorm();
+    return sum;
+  }
+
+  /// sum of x_0 over the contacts that move [N s].
+  double head_impulses() const {
+    double sum = 0.0;
+    for (int c = 0; c < w_.contact_count(); ++c)
+      if (moves(c)) sum += to_cone(point_.r, c)[0];
+    return sum;
+  }
+
+  /// Contacts that move.
+  int cones() const {
+    return static_cast<int>(
+        std::count_if(w_.rho().begin(), w_.rho().end(), [](double rho) { return rho > 0.0; }));
+  }
+
+  /// Moves the point by predictor and corrector. False: the new one is not finite.
+  bool advance() {
+    const int moving = cones();
+    const double nu = moving > 0 ? product() / moving : 0.0;
+    // Predictor: straight to the solution, and how far along it the cones allow.
+    for (int c = 0; c < w_.contact_count(); ++c)
+      target_[c] = -lorentz::product(scaling_[c].lambda, scaling_[c].lambda);
+    solve_newton();
+    const double predicted = longest(1.0);
+    // Corrector: back to the middle as much as the predictor fell short, and its second-order term.
+    // Mehrotra's choice: a predictor that could go all the way leaves sigma = 0 and nothing is
+    // centred; one that was blocked at once gives sigma = 1.
+    const double sigma = std::pow(1.0 - predicted, 3.0);
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      const Vector dx = scaling_[c].f * to_cone(dr_, c),
+                   dz = scaling_[c].f_inverse * to_dual(dg_, c);
+      target_[c] -= lorentz::product(dx, dz);
+      target_[c][0] += sigma * nu;
+    }
+    solve_newton();
+    // Stopping short of the boundary: on it the next scaling would not exist.
+    const double length = longest(0.99);
+    point_.r += length * dr_;
+    point_.g += length * dg_;
+    return point_.r.allFinite() && point_.g.allFinite();
+  }
+
+  bool moves(int c) const { return w_.rho()[c] > 0.0; }
+  bool half_line(int c) const { return !(w_.friction(c) > 0.0); }
+
+  /// x = (mu r_N, r_T): in Lorentz's cone exactly where |r_T| <= mu r_N.
+  Vector to_cone(const Eigen::VectorXd& r, int c) const {
+    const Vector x = w_.at(r, c);
+    return half_line(c) ? Vector(x[0], 0.0, 0.0) : Vector(w_.friction(c) * x[0], x[1], x[2]);
+  }
+  /// z = (g_N / mu, g_T): in the same cone exactly where mu |g_T| <= g_N, and x.z = r.g.
+  Vector to_dual(const Eigen::VectorXd& g, int c) const {
+    const Vector z = w_.at(g, c);
+    return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(z[0] / w_.friction(c), z[1], z[2]);
+  }
+  /// S z: from the cone's rows to a velocity; its inverse maps to an impulse.
+  Vector from_dual(const Vector& z, int c) const {
+    return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(w_.friction(c) * z[0], z[1], z[2]);
+  }
+
+  /// The blocks P and P^-1 of one contact.
+  bool scale_contact(int c) {
+    Eigen::Matrix3d &p = system_.shift[c], &inverse_p = system_.sigma[c];
+    // What may not move does not: a huge P allows no dr.
+    constexpr double nothing = 1e-20;
+    const double lambda_max = moves(c) ? 1.0 / w_.rho()[c] : 1.0;
+    inverse_p = nothing / lambda_max * Eigen::Matrix3d::Identity();
+    p = lambda_max / nothing * Eigen::Matrix3d::Identity();
+    if (!moves(c)) return true;
+    lorentz::Scaling& scaling = scaling_[c];
+    if (!lorentz::scale(to_cone(point_.r, c), to_dual(point_.g, c), half_line(c), scaling))
+      return false;
+    // F^2 takes x to z. It grows without bound where the impulse of an opening contact vanishes,
+    // and vanishes where the velocity of a sticking one does. The bounds keep W + P within what a
+    // factorisation in doubles can take.
+    constexpr double least_shift = 1e-12;
+    const double least = least_shift * lambda_max, most = lambda_max / least_shift;
+    const auto bounded = [=](double e) { return std::clamp(e, least, most); };
+    if (half_line(c)) {
+      p(0, 0) = bounded(scaling.eigenvalues[0]);
+      inverse_p(0, 0) = 1.0 / p(0, 0);
+      return true;
+    }
+    // P = S F^2 S and its inverse, both from the eigenvalues of F^2: neither is inverted from the
+    // other.
+    const Vector s(w_.friction(c), 1.0, 1.0), inverse = s.cwiseInverse();
+    p = s.asDiagonal() * scaling.of_square(bounded) * s.asDiagonal();
+    inverse_p = inverse.asDiagonal() * scaling.of_square([&](double e) {
+      return 1.0 / bounded(e);
+    }) * inverse.asDiagonal();
+    return true;
+  }
+
+  /// dr, dg for the complementarity residuals in target_.
+  void solve_newton() {
+    // The right-hand side -e + S F (lambda \ c), zero where nothing moves.
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      Vector b = Vector::Zero();
+      if (moves(c)) {
+        const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
+        b = w_.at(point_.g, c) - shift_.shifted(w_, u_, c) + from_dual(scaling_[c].f * pull, c);
+        if (half_line(c)) b[1] = b[2] = 0.0;
+      }
+      w_.put(right_, c, b);
+    }
+    // From lambda o (F dx + F^-1 dz) = c: dz = F (lambda \ c - F dx). Refined once, against the
+    // scaling's huge range.
+    system_.solve(right_, dr_, 1);
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      Vector dr = w_.at(dr_, c);
+      if (half_line(c)) dr[1] = dr[2] = 0.0;
+      if (!moves(c)) dr.setZero();
+      w_.put(dr_, c, dr);
+      const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
+      const Vector dz = scaling_[c].f * (pull - scaling_[c].f * to_cone(dr_, c));
+      w_.put(dg_, c, moves(c) ? from_dual(dz, c) : Vector::Zero());
+    }
+  }
+
+  /// `part` of the longest step that stays in all cones, at most a whole one.
+  double longest(double part) const {
+    double step = 1.0 / part;
+    for (int c = 0; c < w_.contact_count(); ++c)
+      if (moves(c)) {
+        step = lorentz::longest_step(to_cone(point_.r, c), to_cone(dr_, c), step);
+        step = lorentz::longest_step(to_dual(point_.g, c), to_dual(dg_, c), step);
+      }
+    return std::min(1.0, part * step);
   }
 
   void round(Impulses& r) const {
@@ -319,10 +299,12 @@ class InteriorPoint final : public Solver {
   static constexpr int most_steps = 25;  ///< with one s
   static constexpr int patience = 40;    ///< steps without the best error halved
   ContactOperator w_;
-  ConeStep cone_step_;
+  ShiftedDelassus system_;
   SlipShift shift_;
   ConePoint point_, before_;  ///< now; where the next s begins
-  Eigen::VectorXd q_, u_, rounded_u_;
+  std::vector<lorentz::Scaling> scaling_;
+  std::vector<Vector> target_;  ///< c in step()
+  Eigen::VectorXd q_, u_, rounded_u_, right_, dr_, dg_;
   /// Begins at once: sweeps would undo what the interior point has balanced.
   std::unique_ptr<Solver> polisher_ = make_proximal_newton({.start_sweeps = 0});
   bool is_polisher_ready_ = false;

@@ -10,7 +10,7 @@ std::unique_ptr<Solver> make_ipopt() { return nullptr; }
 #endif
 #ifdef BALLAST_WITHOUT_NLOPT
 bool has_nlopt() { return false; }
-std::unique_ptr<Solver> make_nlopt(NloptMethod) { return nullptr; }
+std::unique_ptr<Solver> make_nlopt() { return nullptr; }
 #endif
 #ifdef BALLAST_WITHOUT_SICONOS
 bool has_siconos() { return false; }

@@ -13,14 +13,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-struct NloptRecipe {
-  const char* name;
-  nlopt_algorithm algorithm;
-  SizeLimit largest;
-  int evaluations;      ///< of one round, at most
-  const char* because;  ///< of the limits
-};
-
 /// What NLopt's callbacks see: the cone program over the contacts that are not left at zero.
 struct Program {
   SparseRows w;
@@ -55,15 +47,11 @@ void cones(unsigned m, double* result, unsigned n, const double* x, double* grad
 
 class Nlopt final : public Solver {
  public:
-  explicit Nlopt(const NloptRecipe& recipe) : recipe_(recipe) {}
-
   void prepare(const FrictionProblem& problem) override {
-    if (!recipe_.largest.admits(problem))
-      throw UnsupportedProblem(
-          std::string(recipe_.name) + ": " + std::to_string(problem.contact_count()) +
-          " contacts, " + std::to_string(contacts_with_friction(problem)) +
-          " with friction; at most " + std::to_string(recipe_.largest.contacts) + " and " +
-          std::to_string(recipe_.largest.with_friction) + " (" + recipe_.because + ")");
+    if (!nlopt_limit.admits(problem))
+      throw UnsupportedProblem("nlopt_slsqp: " + std::to_string(problem.contact_count()) +
+                               " contacts; at most " + std::to_string(nlopt_limit.contacts) +
+                               " (a dense quadratic program per step)");
     cones_.take(problem);
   }
 
@@ -98,8 +86,7 @@ class Nlopt final : public Solver {
     program.q = request.q(row);
     VectorXd y = answer.x(row);
     answer.iterations = optimise(request, program, row, y);
-    answer.finished =
-        answer.iterations < std::min(recipe_.evaluations, request.left.max_iterations);
+    answer.finished = answer.iterations < std::min(most_evaluations, request.left.max_iterations);
     answer.x(row) = y;
   }
 
@@ -121,13 +108,13 @@ class Nlopt final : public Solver {
       if (std::binary_search(cones_.row_begin.begin(), cones_.row_begin.end(), row[i]))
         low[i] = 0.0;
     const double small = std::clamp(1e-2 * request.accuracy, 1e-14, 1e-4);
-    nlopt_opt optimiser = nlopt_create(recipe_.algorithm, n);
+    nlopt_opt optimiser = nlopt_create(NLOPT_LD_SLSQP, n);
     nlopt_set_lower_bounds(optimiser, low.data());
     nlopt_set_min_objective(optimiser, objective, &program);
     const VectorXd violation = VectorXd::Constant(m, small);
     if (m > 0) nlopt_add_inequality_mconstraint(optimiser, m, cones, &program, violation.data());
     nlopt_set_xtol_abs1(optimiser, small);
-    nlopt_set_maxeval(optimiser, std::min(recipe_.evaluations, request.left.max_iterations));
+    nlopt_set_maxeval(optimiser, std::min(most_evaluations, request.left.max_iterations));
     nlopt_set_maxtime(optimiser, std::max(1e-3, request.left.max_seconds));
     double value = 0.0;
     nlopt_optimize(optimiser, y.data(), &value);  // whatever it says: the judge looks at y
@@ -136,23 +123,14 @@ class Nlopt final : public Solver {
     return evaluations;
   }
 
-  const NloptRecipe& recipe_;
+  static constexpr int most_evaluations = 400;  ///< of one round
   ConeProgram cones_;
 };
-
-// Svanberg's approximations have one curvature for all variables: the sharpest of the cones slows
-// every contact down. 40 contacts with friction and a singular W end at 1e-5 m/s after 20 s.
-const NloptRecipe slsqp{"nlopt_slsqp", NLOPT_LD_SLSQP, nlopt_slsqp_limit, 400,
-                        "a dense quadratic program per step"};
-const NloptRecipe mma{"nlopt_mma", NLOPT_LD_MMA, nlopt_mma_limit, 3000,
-                      "NLopt's dense Jacobian; one curvature for all cones"};
 
 }  // namespace
 
 bool has_nlopt() { return true; }
 
-std::unique_ptr<Solver> make_nlopt(NloptMethod method) {
-  return std::make_unique<Nlopt>(method == NloptMethod::slsqp ? slsqp : mma);
-}
+std::unique_ptr<Solver> make_nlopt() { return std::make_unique<Nlopt>(); }
 
 }  // namespace ballast

@@ -1,6 +1,6 @@
-// Compiled in place of sparse_factor.cpp and front_lu.cpp where SuiteSparse is not used.
+// Compiled in place of sparse_factor.cpp where SuiteSparse is not used.
 
-#include "solvers/parts/front_lu.hpp"
+#include "solvers/parts/sparse_factor.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
@@ -19,8 +19,5 @@ bool LuFactor::factor(const SparseColumns&) { decline(); }
 void LuFactor::solve(const Eigen::VectorXd&, Eigen::VectorXd&) { decline(); }
 
 std::vector<int> dissection_order(const BlockGraph&) { decline(); }
-void FrontLu::analyse(const SparseColumns&, const std::vector<int>&) { decline(); }
-bool FrontLu::factor(const SparseColumns&) { decline(); }
-void FrontLu::solve(const Eigen::VectorXd&, Eigen::VectorXd&) { decline(); }
 
 }  // namespace ballast
