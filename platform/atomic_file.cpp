@@ -42,57 +42,40 @@ void sync_folder(const fs::path& folder) {
 
 namespace {
 
-/// Where a file's name leads: whether it must be written in place, and to which regular file.
-struct Destination {
-  bool is_in_place = false;
-  fs::path file;
-};
-
-/// Follows symbolic links one by one. One that passes through /proc, as /dev/stdout does, means an
-/// open descriptor: a file that somebody has open must not be replaced under his hands.
-Destination destination_of(const fs::path& name) {
-  Destination end{false, name};
+/// The regular file, be it not there yet, that a name leads to, symbolic links followed one by one.
+/// Empty where the name must be written as it is: devices, pipes, and links that pass through
+/// /proc, as /dev/stdout does: a file that somebody has open must not be replaced under his hands.
+fs::path replaceable(const fs::path& name) {
+  fs::path file = name;
   std::error_code error;
   constexpr int most_links = 40;  // as many as the kernel follows
-  for (int link = 0; link < most_links && fs::is_symlink(end.file, error); ++link) {
-    const fs::path next = fs::read_symlink(end.file, error);
-    if (error) break;
-    const fs::path followed = end.file.parent_path() / next;  // `next` alone where it is absolute
-    if (followed.lexically_normal().string().starts_with("/proc/")) return {true, name};
-    end.file = followed;
+  for (int link = 0; link < most_links && fs::is_symlink(file, error); ++link) {
+    file = file.parent_path() / fs::read_symlink(file, error);
+    if (file.lexically_normal().string().starts_with("/proc/")) return {};
   }
-  if (fs::is_symlink(end.file, error)) return {true, name};  // a ring: opening it says so
-  const fs::file_status status = fs::status(end.file, error);
-  end.is_in_place = fs::exists(status) && !fs::is_regular_file(status);
-  return end;
+  // A ring of links is none: opening it says so.
+  const fs::file_type kind = fs::status(file, error).type();
+  return kind == fs::file_type::regular || kind == fs::file_type::not_found ? file : fs::path();
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path target) : name_(std::move(target)) {
-  const Destination destination = destination_of(name_);
-  target_ = destination.file;
+AtomicFile::AtomicFile(fs::path target) : name_(std::move(target)), target_(replaceable(name_)) {
+  // Written beside the target and renamed over it: readers see the old file or the new one, whole.
+  if (!target_.empty()) neighbour_ = target_.string() + ".tmp";
   errno = 0;
-  if (destination.is_in_place) {
-    file_ = std::fopen(target_.c_str(), "wb");  // a folder: "Is a directory"
-  } else {
-    // Written beside the target and renamed over it: readers see the
-    // old file or the new one, whole.
-    neighbour_ = target_.string() + ".tmp";
-    file_ = std::fopen(neighbour_.c_str(), "w+b");
-    struct stat old, mine;
-    // Who may read and write it stays as it was.
-    if (file_ && stat(target_.c_str(), &old) == 0 && fstat(fileno(file_), &mine) == 0 &&
-        S_ISREG(mine.st_mode) && old.st_mode != mine.st_mode)
-      if (fchmod(fileno(file_), old.st_mode & 07777) != 0) errno = 0;  // not ours: it stays new
-  }
+  file_ = target_.empty() ? std::fopen(name_.c_str(), "wb") : std::fopen(neighbour_.c_str(), "w+b");
   if (!file_) throw_file_error(name_, "write");
+  // Who may read and write it stays as it was; where it is not ours to say, it stays new.
+  struct stat old;
+  if (!target_.empty() && stat(target_.c_str(), &old) == 0 &&
+      fchmod(fileno(file_), old.st_mode & 07777) != 0)
+    errno = 0;
 }
 
 AtomicFile::~AtomicFile() {
-  if (!file_) return;
+  if (file_) std::fclose(file_);
   // There was no commit(): the target stays as it was.
-  std::fclose(file_);
   if (!neighbour_.empty()) std::remove(neighbour_.c_str());
 }
 
@@ -118,24 +101,11 @@ int AtomicFile::descriptor() const {
 void AtomicFile::commit() {
   // The bytes are on the disk before the name points to them, and the name before commit() returns.
   sync_to_disk(file_, name_);
-  close();
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) throw_file_error(name_, "write");
   if (neighbour_.empty()) return;
-  if (std::rename(neighbour_.c_str(), target_.c_str()) != 0) {
-    const int error = errno;
-    std::remove(neighbour_.c_str());
-    errno = error;
-    throw_file_error(name_, "write");
-  }
+  if (std::rename(neighbour_.c_str(), target_.c_str()) != 0) throw_file_error(name_, "write");
+  neighbour_.clear();
   sync_folder(target_.parent_path());
-}
-
-void AtomicFile::close() {
-  errno = 0;
-  if (std::fclose(std::exchange(file_, nullptr)) == 0) return;
-  const int error = errno;
-  if (!neighbour_.empty()) std::remove(neighbour_.c_str());
-  errno = error;
-  throw_file_error(name_, "write");
 }
 
 void write_whole_file(const fs::path& target, std::string_view text) {
@@ -202,23 +172,24 @@ FileLock::FileLock(fs::path file, const Patience& patience) : file_(std::move(fi
     if (!patience(waited)) return;
     usleep(static_cast<useconds_t>(1e6 * pause));
   }
+  // Signed only for whoever is turned away: that it cannot be written harms nobody.
+  char host[65] = "";
+  gethostname(host, sizeof host - 1);
+  const std::string text = "process " + std::to_string(getpid()) + " on " + host;
+  if (ftruncate(descriptor_, 0) != 0 || pwrite(descriptor_, text.data(), text.size(), 0) < 0)
+    return;
 }
 
 bool FileLock::try_once() {
   const int descriptor = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) throw_file_error(file_, "make the lock");
-  // Locked, but perhaps a file that its last holder has just unlinked: then try again.
-  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
-    if (is_current(descriptor, file_)) {
-      descriptor_ = descriptor;
-      sign();
-      return true;
-    }
-    close(descriptor);
-    return false;
+  const bool is_locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (is_locked && is_current(descriptor, file_)) {
+    descriptor_ = descriptor;
+    return true;
   }
-  // Somebody else has it: read who signed it.
-  const int error = errno;
+  // Somebody else has it: read who signed it. Or it was unlinked meanwhile: then try again.
+  const int error = is_locked ? EWOULDBLOCK : errno;
   char text[160];
   const ssize_t length = pread(descriptor, text, sizeof text, 0);
   if (length > 0) holder_.assign(text, static_cast<size_t>(length));
@@ -226,15 +197,6 @@ bool FileLock::try_once() {
   errno = error;
   if (error != EWOULDBLOCK && error != EINTR) throw_file_error(file_, "lock");
   return false;
-}
-
-/// Only for whoever is turned away: that it cannot be written harms nobody.
-void FileLock::sign() const {
-  char host[65] = "";
-  gethostname(host, sizeof host - 1);
-  const std::string text = "process " + std::to_string(getpid()) + " on " + host;
-  if (ftruncate(descriptor_, 0) != 0 || pwrite(descriptor_, text.data(), text.size(), 0) < 0)
-    return;
 }
 
 FileLock::~FileLock() {

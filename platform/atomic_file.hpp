@@ -33,10 +33,9 @@ class AtomicFile {
   void commit();
 
  private:
-  void close();
   std::filesystem::path name_;       // as it was given
-  std::filesystem::path target_;     // what it leads to
-  std::filesystem::path neighbour_;  // empty: the target itself is written
+  std::filesystem::path target_;     // what it leads to; empty: it is written as it is
+  std::filesystem::path neighbour_;  // until it is renamed
   std::FILE* file_ = nullptr;
 };
 
@@ -106,7 +105,6 @@ class FileLock {
 
  private:
   bool try_once();
-  void sign() const;
 
   std::filesystem::path file_;
   int descriptor_ = -1;

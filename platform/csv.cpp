@@ -45,12 +45,6 @@ void CsvWriter::add_row(std::span<const std::string> cells) {
   end_row();
 }
 
-std::string CsvWriter::take() {
-  std::string text;
-  text.swap(text_);
-  return text;
-}
-
 CsvReader::CsvReader(const std::filesystem::path& file)
     : file_(file.string()), text_(read_whole_file(file)) {}
 
@@ -71,35 +65,28 @@ bool CsvReader::next() {
 
 void CsvReader::split(std::string_view line) {
   cells_.clear();
-  unquoted_.clear();
-  for (size_t at = 0;;) {
-    if (at < line.size() && line[at] == '"') {
-      // A doubled quote is a quote; a single one ends the cell.
-      std::string& cell = unquoted_.emplace_back();
-      for (++at;; ++at) {
-        if (at >= line.size()) fail("a quote is not closed");
-        if (line[at] == '"' && (++at >= line.size() || line[at] != '"')) break;
-        cell += line[at];
-      }
-      cells_.push_back(cell);
-      if (at < line.size() && line[at] != ',') fail("a comma is missing after a quoted cell");
-    } else {
+  // Behind a comma there is one more cell, be it empty.
+  for (size_t at = 0; cells_.empty() || at++ < line.size();) {
+    std::string& cell = cells_.emplace_back();
+    if (at == line.size() || line[at] != '"') {
       // A plain cell goes to the next comma.
-      const size_t end = std::min(line.find(',', at), line.size());
-      cells_.push_back(line.substr(at, end - at));
-      at = end;
+      cell = line.substr(at, line.find(',', at) - at);
+      at += cell.size();
+      continue;
     }
-    // Behind a comma there is one more cell, be it empty.
-    if (at >= line.size()) return;
-    ++at;
+    // A doubled quote is a quote; a single one ends the cell.
+    for (++at;; ++at) {
+      if (at >= line.size()) fail("a quote is not closed");
+      if (line[at] == '"' && (++at >= line.size() || line[at] != '"')) break;
+      cell += line[at];
+    }
+    if (at < line.size() && line[at] != ',') fail("a comma is missing after a quoted cell");
   }
 }
 
 double CsvReader::number(size_t cell, std::string_view column) const {
   const auto value = parsed_number(cells_[cell]);
-  if (!value)
-    fail(std::string(column) + " is not a number: \"" + std::string(cells_[cell].substr(0, 40)) +
-         '"');
+  if (!value) fail(std::string(column) + " is not a number: \"" + cells_[cell].substr(0, 40) + '"');
   return *value;
 }
 

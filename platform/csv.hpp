@@ -2,11 +2,11 @@
 // Tables as comma-separated values (RFC 4180): cells with a comma or a quote stand in quotes. A
 // cell is one line: line ends in it become blanks.
 
-#include <deque>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ballast {
@@ -22,7 +22,7 @@ class CsvWriter {
   void add_row(std::span<const std::string> cells);
 
   /// What has been written since the last call.
-  std::string take();
+  std::string take() { return std::exchange(text_, {}); }
 
  private:
   void separate();
@@ -42,7 +42,7 @@ class CsvReader {
   /// Goes to the next row; false after the last.
   bool next();
   /// Of this row, without their quotes; valid until next().
-  std::span<const std::string_view> cells() const { return cells_; }
+  std::span<const std::string> cells() const { return cells_; }
   /// The same as a number. Throws Error naming `column`, when it is none.
   double number(size_t cell, std::string_view column) const;
   /// Throws Error unless the row has `count` cells.
@@ -56,8 +56,7 @@ class CsvReader {
   std::string file_, text_;
   size_t at_ = 0;  // the next line's beginning in text_
   long line_ = 0;
-  std::vector<std::string_view> cells_;
-  std::deque<std::string> unquoted_;  // what cells_ refers to where quotes were doubled
+  std::vector<std::string> cells_;
 };
 
 }  // namespace ballast

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <exception>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -19,54 +19,11 @@ namespace ballast {
 /// The disk as HDF5 sees it while it makes a file: one that never fills up. HDF5 cannot recover
 /// from a write that fails: a dataset that is closed by its destructor would lose a chunk without a
 /// word, handles would stay open, and the end of the program would try again. So it is told that
-/// every write went well; the first failure is kept and thrown to whoever asks.
-class Hdf5Disk {
- public:
-  explicit Hdf5Disk(const std::filesystem::path& target) : target_(target), file_(target) {}
-
-  /// Throws the Error with which a write failed.
-  void require_written() const {
-    if (failure_) std::rethrow_exception(failure_);
-  }
-  /// After a failure nothing is attempted any more but reading.
-  void write(haddr_t offset, std::string_view bytes) {
-    for (ssize_t count; !bytes.empty() && !failure_; bytes.remove_prefix(count)) {
-      errno = 0;
-      count = pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-      if (count <= 0) return note("write");
-      offset += count;
-    }
-  }
-  /// What stands there; zeros behind the end.
-  void read(haddr_t offset, std::span<char> bytes) {
-    std::ranges::fill(bytes, '\0');
-    for (ssize_t count; !bytes.empty(); bytes = bytes.subspan(count)) {
-      errno = 0;
-      count = pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-      if (count < 0) note("read");
-      if (count <= 0) return;
-      offset += count;
-    }
-  }
-  void set_length(haddr_t bytes) {
-    errno = 0;
-    if (ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0) note("write");
-  }
-  void commit() { file_.commit(); }
-
- private:
-  void note(const char* action) {
-    try {
-      throw_file_error(target_, action);
-    } catch (...) {
-      if (!failure_) failure_ = std::current_exception();
-    }
-  }
-
-  const std::filesystem::path target_;
-  AtomicFile file_;
-  const int descriptor_ = file_.descriptor();
-  std::exception_ptr failure_;
+/// every write went well; the first failure is kept, and Hdf5Writer::check() throws it.
+struct Hdf5Disk {
+  AtomicFile file;
+  int descriptor = file.descriptor();
+  int error = 0;  // errno of the first failure, after which nothing is written any more
 };
 
 namespace {
@@ -90,20 +47,22 @@ Hdf5Id space_of(const Hdf5Shape& shape) {
 }
 
 /// Selects as many entries of `space` as whole rows along its first dimension, from row `first` on,
-/// and returns their shape; empty when there are no such rows.
-Hdf5Shape select_rows(const Hdf5Id& space, size_t first, size_t entries) {
+/// and returns their shape. Throws Error "<file>: HDF5 cannot <action>" when there are no such
+/// rows.
+Hdf5Shape select_rows(const Hdf5File& file, const Hdf5Id& space, size_t first, size_t entries,
+                      const std::string& action) {
   Hdf5Shape count(static_cast<size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
   H5Sget_simple_extent_dims(space, count.data(), nullptr);
-  if (count.empty()) return {};
+  if (count.empty()) file.fail("HDF5 cannot " + action);
   // Some rows along the first dimension, all of the others.
   Hdf5Shape start(count.size(), 0);
   const unsigned long long rows = count[0], row = product({count.begin() + 1, count.end()});
   start[0] = first;
   count[0] = row > 0 ? entries / row : 0;
-  if (count[0] == 0 || entries % row != 0 || first >= rows || count[0] > rows - first) return {};
-  const herr_t selected =
-      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  return selected < 0 ? Hdf5Shape{} : count;
+  if (count[0] == 0 || entries % row != 0 || first >= rows || count[0] > rows - first ||
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0)
+    file.fail("HDF5 cannot " + action);
+  return count;
 }
 
 hid_t open_for_reading(const Hdf5File& file, const std::filesystem::path& path) {
@@ -127,14 +86,32 @@ const OpenFile& of(const H5FD_t* file) { return *static_cast<const OpenFile*>(fi
 herr_t write_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size,
                   const void* buffer) {
   of(file).length = std::max<haddr_t>(of(file).length, offset + size);
-  of(file).disk->write(offset, {static_cast<const char*>(buffer), size});
+  Hdf5Disk& disk = *of(file).disk;
+  for (size_t done = 0; done < size && disk.error == 0;) {
+    const ssize_t count = pwrite(disk.descriptor, static_cast<const char*>(buffer) + done,
+                                 size - done, static_cast<off_t>(offset + done));
+    if (count < 0)
+      disk.error = errno;
+    else
+      done += static_cast<size_t>(count);
+  }
+  return 0;
+}
+
+/// What stands there; zeros behind the end, and for what was not written.
+herr_t read_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size, void* buffer) {
+  std::memset(buffer, 0, size);
+  Hdf5Disk& disk = *of(file).disk;
+  if (pread(disk.descriptor, buffer, size, static_cast<off_t>(offset)) < 0) disk.error = errno;
   return 0;
 }
 
 /// The file ends where the last address was given away.
 herr_t end_file(H5FD_t* file, hid_t, hbool_t) {
   OpenFile& open = of(file);
-  if (open.length != open.given) open.disk->set_length(open.given);
+  if (open.length != open.given &&
+      ftruncate(open.disk->descriptor, static_cast<off_t>(open.given)) != 0)
+    open.disk->error = errno;
   open.length = open.given;
   return 0;
 }
@@ -166,10 +143,7 @@ hid_t register_driver() {
     return 0;
   };
   driver.get_eof = [](const H5FD_t* file, H5FD_mem_t) { return of(file).length; };
-  driver.read = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size, void* buffer) {
-    of(file).disk->read(offset, {static_cast<char*>(buffer), size});
-    return 0;
-  };
+  driver.read = read_file;
   driver.write = write_file;
   driver.truncate = end_file;
   constexpr H5FD_mem_t room[] = H5FD_FLMAP_DICHOTOMY;
@@ -177,26 +151,31 @@ hid_t register_driver() {
   return H5FDregister(&driver);
 }
 
-/// Makes an HDF5 file whose bytes go to `disk`, without times of day: equal contents are equal
-/// bytes. Returns its handle, negative when HDF5 fails.
+/// A list of properties for what is made, which says nothing of the time of day.
+Hdf5Id timeless(hid_t kind) {
+  Hdf5Id properties(H5Pcreate(kind), H5Pclose);
+  H5Pset_obj_track_times(properties, false);
+  return properties;
+}
+
+/// Makes an HDF5 file whose bytes go to `disk`. Returns its handle, negative when HDF5 fails.
 hid_t create_file(const std::shared_ptr<Hdf5Disk>& disk) {
   static const hid_t driver = register_driver();
-  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
-      creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation = timeless(H5P_FILE_CREATE);
   const std::shared_ptr<Hdf5Disk>* order = &disk;
   H5Pset_driver(access, driver, &order);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  H5Pset_obj_track_times(creation, false);
   return H5Fcreate("on our disk", H5F_ACC_TRUNC, creation, access);
 }
 
 constexpr hsize_t chunk_bytes = 1 << 16;  // of compressed data; a sixteenth is stored as it is
 constexpr unsigned deflate_level = 4;
 
-hid_t type_in_file(Hdf5Number number) {
-  return number == Hdf5Number::float64 ? H5T_IEEE_F64LE
-         : number == Hdf5Number::int32 ? H5T_STD_I32LE
-                                       : H5T_STD_I64LE;
+hid_t type_of(Hdf5Number number) {
+  return number == Hdf5Number::float64 ? H5T_NATIVE_DOUBLE
+         : number == Hdf5Number::int32 ? H5T_NATIVE_INT32
+         : number == Hdf5Number::int64 ? H5T_NATIVE_INT64
+                                       : H5T_NATIVE_UINT64;
 }
 
 }  // namespace
@@ -207,11 +186,8 @@ static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>
 
 Hdf5File::Hdf5File(const std::filesystem::path& path) : path_(path) {
   // HDF5 would print its error stack to stderr; what went wrong is said by an Error instead.
-  H5Eget_auto2(H5E_DEFAULT, &old_report_, &old_client_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
-
-Hdf5File::~Hdf5File() { H5Eset_auto2(H5E_DEFAULT, old_report_, old_client_); }
 
 void Hdf5File::fail(const std::string& what) const { throw Error(path_.string() + ": " + what); }
 
@@ -262,8 +238,11 @@ void Hdf5Reader::require_stored(const std::string& name, const Hdf5Id& dataset,
 }
 
 template <typename Value>
-std::vector<Value> Hdf5Reader::read(const std::string& name, std::int64_t type) const {
-  // What is stored may have any width or byte order: HDF5 converts it to `type` while reading.
+std::vector<Value> Hdf5Reader::read(const std::string& name) const {
+  // What is stored may have any width or byte order: HDF5 converts it while reading.
+  const hid_t type = std::is_same_v<Value, double> ? H5T_NATIVE_DOUBLE
+                     : std::is_same_v<Value, int>  ? H5T_NATIVE_INT
+                                                   : H5T_NATIVE_UINT64;
   const Hdf5Id dataset = open(name), space(H5Dget_space(dataset), H5Sclose),
                stored(H5Dget_type(dataset), H5Tclose);
   const H5T_class_t kind = stored >= 0 ? H5Tget_class(stored) : H5T_NO_CLASS;
@@ -277,17 +256,9 @@ std::vector<Value> Hdf5Reader::read(const std::string& name, std::int64_t type) 
   return values;
 }
 
-std::vector<double> Hdf5Reader::read_doubles(const std::string& name) const {
-  return read<double>(name, H5T_NATIVE_DOUBLE);
-}
-
-std::vector<int> Hdf5Reader::read_ints(const std::string& name) const {
-  return read<int>(name, H5T_NATIVE_INT);
-}
-
-std::vector<std::uint64_t> Hdf5Reader::read_keys(const std::string& name) const {
-  return read<std::uint64_t>(name, H5T_NATIVE_UINT64);
-}
+template std::vector<double> Hdf5Reader::read(const std::string&) const;
+template std::vector<int> Hdf5Reader::read(const std::string&) const;
+template std::vector<std::uint64_t> Hdf5Reader::read(const std::string&) const;
 
 int Hdf5Reader::read_int(const std::string& name) const {
   const std::vector<int> values = read_ints(name);
@@ -317,8 +288,7 @@ std::vector<double> Hdf5Reader::read_rows(const std::string& name, size_t first,
       "read rows " + std::to_string(first) + " to " + std::to_string(first + count) + " of " + name;
   Hdf5Shape of_row = shape(name);
   if (!of_row.empty()) of_row[0] = 1;
-  const Hdf5Shape rows = select_rows(space, first, count * product(of_row));
-  if (rows.empty()) fail("HDF5 cannot " + what);
+  const Hdf5Shape rows = select_rows(*this, space, first, count * product(of_row), what);
   require_stored(name, dataset, product(rows));
   std::vector<double> values(product(rows));
   const Hdf5Id memory = space_of(rows);
@@ -343,25 +313,21 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& target, Hdf5Storage storage)
     : Hdf5File(target),
       storage_(storage),
-      disk_(std::make_shared<Hdf5Disk>(target)),
+      disk_(new Hdf5Disk{.file = AtomicFile(target)}),
       file_(create_file(disk_), H5Fclose) {
   check(file_, "make a file");
 }
 
 std::int64_t Hdf5Writer::check(std::int64_t result, const std::string& action) const {
-  disk_->require_written();
+  errno = disk_->error;
+  if (errno != 0) throw_file_error(path_, "write");
   return Hdf5File::check(result, action);
 }
 
-Hdf5Id Hdf5Writer::made(Hdf5Id id, const std::string& name) const {
-  check(id, "make " + name);
-  return id;
-}
-
 void Hdf5Writer::add_group(const std::string& name) {
-  const Hdf5Id creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation, false);
-  made({H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose}, name);
+  const Hdf5Id creation = timeless(H5P_GROUP_CREATE),
+               group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
+  check(group, "make " + name);
 }
 
 void Hdf5Writer::add_attribute(const std::string& object, const std::string& attribute,
@@ -378,9 +344,8 @@ void Hdf5Writer::add_attribute(const std::string& object, const std::string& att
 
 Hdf5Id Hdf5Writer::make_dataset(const std::string& name, std::int64_t type, const Hdf5Shape& shape,
                                 Hdf5Storage storage) {
-  const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation, false);
-  const Hdf5Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  const Hdf5Id creation = timeless(H5P_DATASET_CREATE),
+               access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   const hsize_t bytes = product(shape) * H5Tget_size(type);
   if (storage == Hdf5Storage::compressed && bytes > chunk_bytes / 16 && !shape.empty()) {
     // Chunks of whole slices, about 64 kB each: shuffled (bytes of equal weight together, which
@@ -396,36 +361,18 @@ Hdf5Id Hdf5Writer::make_dataset(const std::string& name, std::int64_t type, cons
                        H5D_CHUNK_CACHE_W0_DEFAULT);
   }
   const Hdf5Id space = space_of(shape);
-  return made(
-      {H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, access), H5Dclose},
-      name);
+  Hdf5Id dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, access),
+                 H5Dclose);
+  check(dataset, "make " + name);
+  return dataset;
 }
 
-void Hdf5Writer::write(const std::string& name, std::int64_t stored, std::int64_t given,
-                       const void* values, const Hdf5Shape& shape) {
-  const Hdf5Id dataset = make_dataset(name, stored, shape, storage_);
+void Hdf5Writer::add(const std::string& name, Hdf5Number number, const void* values,
+                     const Hdf5Shape& shape) {
+  const Hdf5Id dataset = make_dataset(name, type_of(number), shape, storage_);
   if (product(shape) > 0)
-    check(H5Dwrite(dataset, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
-}
-
-void Hdf5Writer::add(const std::string& name, std::span<const double> values,
-                     const Hdf5Shape& shape) {
-  write(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), shape);
-}
-
-void Hdf5Writer::add(const std::string& name, std::span<const std::int32_t> values,
-                     const Hdf5Shape& shape) {
-  write(name, H5T_STD_I32LE, H5T_NATIVE_INT32, values.data(), shape);
-}
-
-void Hdf5Writer::add(const std::string& name, std::span<const std::int64_t> values,
-                     const Hdf5Shape& shape) {
-  write(name, H5T_STD_I64LE, H5T_NATIVE_INT64, values.data(), shape);
-}
-
-void Hdf5Writer::add(const std::string& name, std::span<const std::uint64_t> values,
-                     const Hdf5Shape& shape) {
-  write(name, H5T_STD_U64LE, H5T_NATIVE_UINT64, values.data(), shape);
+    check(H5Dwrite(dataset, type_of(number), H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
+          "write " + name);
 }
 
 void Hdf5Writer::add(const std::string& name, const std::vector<std::string>& texts) {
@@ -445,13 +392,12 @@ void Hdf5Writer::add_text(const std::string& name, const std::string& text) {
 }
 
 Hdf5Id Hdf5Writer::add_rows(const std::string& name, const Hdf5Shape& shape, Hdf5Number number) {
-  return make_dataset(name, type_in_file(number), shape, storage_);
+  return make_dataset(name, type_of(number), shape, storage_);
 }
 
 void Hdf5Writer::write_rows(const Hdf5Id& dataset, size_t first, std::span<const double> values) {
   const Hdf5Id space(H5Dget_space(dataset), H5Sclose);
-  const Hdf5Shape rows = select_rows(space, first, values.size());
-  if (rows.empty()) fail("HDF5 cannot select rows");
+  const Hdf5Shape rows = select_rows(*this, space, first, values.size(), "select rows");
   const Hdf5Id memory = space_of(rows);
   check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()),
         "write rows");
@@ -460,8 +406,7 @@ void Hdf5Writer::write_rows(const Hdf5Id& dataset, size_t first, std::span<const
 void Hdf5Writer::commit() {
   // Closing makes HDF5 write its last metadata.
   check(file_.close(), "finish the file");
-  disk_->require_written();
-  disk_->commit();
+  disk_->file.commit();
 }
 
 }  // namespace ballast

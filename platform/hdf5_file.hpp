@@ -38,7 +38,7 @@ class Hdf5Id {
 /// Sizes along the dimensions (hsize_t).
 using Hdf5Shape = std::vector<unsigned long long>;
 
-/// What Hdf5Reader and Hdf5Writer share: the name for errors, and silence while they live.
+/// What Hdf5Reader and Hdf5Writer share: the name for errors. HDF5 itself is silent from then on.
 class Hdf5File {
  public:
   /// Throws Error "<file>: <what>".
@@ -46,17 +46,12 @@ class Hdf5File {
 
  protected:
   explicit Hdf5File(const std::filesystem::path& path);
-  ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
   /// `result`, unless it is negative: then Error "<file>: HDF5 cannot <action>".
   std::int64_t check(std::int64_t result, const std::string& action) const;
 
   const std::filesystem::path path_;
-
- private:
-  int (*old_report_)(std::int64_t, void*) = nullptr;  // how HDF5 spoke of errors before us
-  void* old_client_ = nullptr;
 };
 
 /// Reads an HDF5 file, whoever wrote it. Numbers are converted from whatever type they have.
@@ -66,9 +61,11 @@ class Hdf5Reader : public Hdf5File {
 
   bool has(const std::string& name) const;
   Hdf5Shape shape(const std::string& name) const;
-  std::vector<double> read_doubles(const std::string& name) const;
-  std::vector<int> read_ints(const std::string& name) const;
-  std::vector<std::uint64_t> read_keys(const std::string& name) const;
+  std::vector<double> read_doubles(const std::string& name) const { return read<double>(name); }
+  std::vector<int> read_ints(const std::string& name) const { return read<int>(name); }
+  std::vector<std::uint64_t> read_keys(const std::string& name) const {
+    return read<std::uint64_t>(name);
+  }
   /// The only entry of a dataset.
   int read_int(const std::string& name) const;
   /// As Hdf5Writer::add_text left it.
@@ -82,7 +79,7 @@ class Hdf5Reader : public Hdf5File {
   void require_stored(const std::string& name, const Hdf5Id& dataset,
                       unsigned long long entries) const;
   template <typename Value>
-  std::vector<Value> read(const std::string& name, std::int64_t type) const;
+  std::vector<Value> read(const std::string& name) const;
 
   Hdf5Id file_;
 };
@@ -90,10 +87,10 @@ class Hdf5Reader : public Hdf5File {
 /// How larger datasets are stored: as they are, or compressed and with a checksum.
 enum class Hdf5Storage { plain, compressed };
 
-/// How numbers that are given as doubles are stored.
-enum class Hdf5Number { float64, int32, int64 };
+/// How numbers are stored.
+enum class Hdf5Number { float64, int32, int64, uint64 };
 
-class Hdf5Disk;
+struct Hdf5Disk;
 
 /// Writes an HDF5 file beside its target, which is replaced by commit(). The format is HDF5 1.8's,
 /// with checksums of metadata, and without times of day: equal contents are equal bytes.
@@ -106,10 +103,18 @@ class Hdf5Writer : public Hdf5File {
   void add_attribute(const std::string& object, const std::string& attribute,
                      const std::string& text);
 
-  void add(const std::string& name, std::span<const double> values, const Hdf5Shape& shape);
-  void add(const std::string& name, std::span<const std::int32_t> values, const Hdf5Shape& shape);
-  void add(const std::string& name, std::span<const std::int64_t> values, const Hdf5Shape& shape);
-  void add(const std::string& name, std::span<const std::uint64_t> values, const Hdf5Shape& shape);
+  void add(const std::string& name, std::span<const double> values, const Hdf5Shape& shape) {
+    add(name, Hdf5Number::float64, values.data(), shape);
+  }
+  void add(const std::string& name, std::span<const std::int32_t> values, const Hdf5Shape& shape) {
+    add(name, Hdf5Number::int32, values.data(), shape);
+  }
+  void add(const std::string& name, std::span<const std::int64_t> values, const Hdf5Shape& shape) {
+    add(name, Hdf5Number::int64, values.data(), shape);
+  }
+  void add(const std::string& name, std::span<const std::uint64_t> values, const Hdf5Shape& shape) {
+    add(name, Hdf5Number::uint64, values.data(), shape);
+  }
   /// One dimension.
   template <typename Value>
   void add(const std::string& name, const std::vector<Value>& values) {
@@ -119,7 +124,8 @@ class Hdf5Writer : public Hdf5File {
   /// One text, stored with its length.
   void add_text(const std::string& name, const std::string& text);
 
-  /// A dataset that is filled bit by bit: rows are what one number along its first dimension names.
+  /// A dataset that is filled bit by bit with numbers that are given as doubles: rows are what one
+  /// number along its first dimension names.
   Hdf5Id add_rows(const std::string& name, const Hdf5Shape& shape,
                   Hdf5Number number = Hdf5Number::float64);
   /// Whole rows, from row `first` on.
@@ -132,12 +138,9 @@ class Hdf5Writer : public Hdf5File {
  private:
   /// What the disk failed with goes before what HDF5 failed with.
   std::int64_t check(std::int64_t result, const std::string& action) const;
-  /// `id`, which is closed where that throws.
-  Hdf5Id made(Hdf5Id id, const std::string& name) const;
   Hdf5Id make_dataset(const std::string& name, std::int64_t type, const Hdf5Shape& shape,
                       Hdf5Storage storage);
-  void write(const std::string& name, std::int64_t stored, std::int64_t given, const void* values,
-             const Hdf5Shape& shape);
+  void add(const std::string& name, Hdf5Number number, const void* values, const Hdf5Shape& shape);
 
   Hdf5Storage storage_;
   std::shared_ptr<Hdf5Disk> disk_;

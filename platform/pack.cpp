@@ -27,33 +27,26 @@ void write_sealed_file(const std::filesystem::path& file, const SealedKind& kind
 }
 
 std::string read_sealed_file(const std::filesystem::path& file, const SealedKind& kind) {
-  const std::string bytes = read_whole_file(file);
-  const std::string name(kind.name);
+  const std::string bytes = read_whole_file(file), name(kind.name);
+  const std::string_view all(bytes);
   const auto refuse = [&](const std::string& why) { throw Error(file.string() + ": " + why); };
   // A file that is cut off within its magic is truncated; it is not one of another kind.
-  if (bytes.empty()) refuse(name + " is empty");
-  if (bytes.compare(0, kind.magic.size(), kind.magic.substr(0, bytes.size())) != 0)
-    refuse("is not a " + name);
-  if (bytes.size() < head_bytes)
-    refuse(name + " is truncated in its first " + std::to_string(head_bytes) + " bytes");
-  const std::string_view all(bytes);
-  Unpacker head(all.substr(kind.magic.size()), file.string() + ": " + name);
+  if (all.empty()) refuse(name + " is empty");
+  if (!all.starts_with(kind.magic.substr(0, all.size()))) refuse("is not a " + name);
+  const std::string broken = name + " is truncated or damaged";
+  if (all.size() < head_bytes + checksum_bytes) refuse(broken);
+  const std::string_view sealed = all.substr(0, all.size() - checksum_bytes);
+  Unpacker head(all.substr(kind.magic.size()), name), end(all.substr(sealed.size()), name);
   std::uint32_t format = 0, byte_order = 0;
   std::uint64_t body = 0, checksum = 0;
   head.numbers(format, byte_order, body);
+  end.number(checksum);
   if (byte_order != this_byte_order)
     refuse(name + " was written on a machine of another byte order");
   if (format != kind.format)
     refuse(name + " has format " + std::to_string(format) + ", this program reads format " +
            std::to_string(kind.format));
-  const std::uint64_t rest = bytes.size() - head_bytes;
-  if (rest < checksum_bytes || body > rest - checksum_bytes)
-    refuse(name + " is truncated: " + std::to_string(bytes.size()) + " bytes are there");
-  if (body < rest - checksum_bytes) refuse(name + " is damaged: bytes follow its end");
-  Unpacker end(all.substr(bytes.size() - checksum_bytes), file.string() + ": " + name);
-  end.number(checksum);
-  if (checksum != fnv1a(all.substr(0, bytes.size() - checksum_bytes)))
-    refuse(name + " is damaged: its checksum is wrong");
+  if (body != sealed.size() - head_bytes || checksum != fnv1a(sealed)) refuse(broken);
   return bytes.substr(head_bytes, body);
 }
 

@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -16,96 +17,184 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <initializer_list>
 #include <string_view>
 
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
 namespace {
 
+[[noreturn]] void throw_no_child() {
+  throw Error(std::string("cannot start a child process: ") + std::strerror(errno));
+}
+
+/// A descriptor that is closed with its owner, and not left open in other programs. Throws Error
+/// when there is none.
+struct Descriptor {
+  explicit Descriptor(int opened) : number(opened) {
+    if (number < 0) throw_no_child();
+  }
+  ~Descriptor() { close(number); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  const int number;
+};
+
+/// A file in memory that a child writes into and that is read here when the child has ended.
+struct MemoryFile : Descriptor {
+  MemoryFile() : Descriptor(memfd_create("ballast", MFD_CLOEXEC)) {}
+
+  /// All that has been written.
+  std::string text() const {
+    std::string text(static_cast<size_t>(std::max<off_t>(lseek(number, 0, SEEK_END), 0)), '\0');
+    const ssize_t got = pread(number, text.data(), text.size(), 0);
+    text.resize(static_cast<size_t>(std::max<ssize_t>(got, 0)));
+    return text;
+  }
+};
+
+/// Behind an answer that is whole: a child that dies on the way leaves less.
+constexpr std::string_view whole = "\x1bwhole answer\x1b";
+
+bool expendable = false;
+
+/// In the child: the answer goes into the file, everything that is printed nowhere.
+void answer_into(int file, const std::function<std::string()>& work) {
+  expendable = true;
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  const std::string answer = work().append(whole);
+  _exit(write(file, answer.data(), answer.size()) == static_cast<ssize_t>(answer.size()) ? 0 : 1);
+}
+
+}  // namespace
+
+bool is_expendable_process() { return expendable; }
+
+ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work) {
+  const MemoryFile file;
+  ChildProcess child([&] { answer_into(file.number, work); });
+  if (!child.ends_within(max_seconds)) return {ChildEnd::out_of_time, ""};  // and is killed
+  std::string answer = file.text();
+  if (!answer.ends_with(whole)) return {ChildEnd::crashed, ""};
+  answer.resize(answer.size() - whole.size());
+  return {ChildEnd::complete, std::move(answer)};
+}
+
+ChildProcess::ChildProcess(const std::function<void()>& live) {
+  const pid_t parent = getpid();
+  // From here on two processes run; the child never leaves this constructor.
+  child_ = fork();
+  if (child_ < 0) throw_no_child();
+  if (child_ > 0) return;
+  // The kernel kills the child when its parent dies, whatever the parent dies of.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);  // the parent died before the line above
+  for (const int number :
+       {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE, SIGCHLD, SIGABRT, SIGSEGV, SIGFPE})
+    signal(number, SIG_DFL);
+  try {
+    live();
+  } catch (...) {
+  }
+  _exit(1);
+}
+
+ChildProcess::~ChildProcess() {
+  send(SIGKILL);
+  collect(true);
+}
+
+void ChildProcess::send(int signal) const {
+  if (child_ > 0) kill(child_, signal);
+}
+
+namespace {
+
+/// As a shell says it, of what waitpid() found.
+int status_of(int how) { return WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how); }
+
+}  // namespace
+
+bool ChildProcess::collect(bool waits) {
+  if (child_ < 0) return true;
+  int how = 0;
+  pid_t ended;
+  do ended = waitpid(child_, &how, waits ? 0 : WNOHANG);
+  while (ended < 0 && errno == EINTR);
+  if (ended == 0) return false;
+  child_ = -1;
+  status_ = ended < 0 ? 127 : status_of(how);  // 127: somebody else waited for it
+  return true;
+}
+
+bool ChildProcess::ends_within(double seconds) {
+  const Stopwatch watch;
+  for (useconds_t pause = 50; !has_ended(); pause = std::min<useconds_t>(2 * pause, 1000)) {
+    if (!(watch.seconds() < seconds)) return false;
+    usleep(pause);
+  }
+  return true;
+}
+
+// ---- other programs
+
+namespace {
+
 /// How many threads OpenBLAS and OpenMP take. CHOLMOD asks for four whatever the second says: they
 /// wait for each other, spinning, wherever another program has a core. The third forbids it.
-constexpr const char* algebra_threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
-                                           "OMP_THREAD_LIMIT"};
+constexpr const char* one_algebra_thread[] = {"OPENBLAS_NUM_THREADS=1", "OMP_NUM_THREADS=1",
+                                              "OMP_THREAD_LIMIT=1"};
 
-/// A program, its arguments and its environment as exec wants them: made before the fork, after
-/// which no memory may be asked for when there are threads.
-class Call {
- public:
-  Call(const std::string& program, const std::vector<std::string>& arguments,
-       std::vector<std::string> environment)
-      : words_{program}, environment_(std::move(environment)) {
-    words_.insert(words_.end(), arguments.begin(), arguments.end());
-    for (std::string& word : words_) word_pointers_.push_back(word.data());
-    for (std::string& variable : environment_) variable_pointers_.push_back(variable.data());
-    word_pointers_.push_back(nullptr);
-    variable_pointers_.push_back(nullptr);
-  }
-  Call(const Call&) = delete;
-  Call& operator=(const Call&) = delete;
+/// Words or variables as exec wants them, ended by a null: made before the fork, after which no
+/// memory may be asked for when there are threads. They point to what they are made of.
+using Words = std::vector<const char*>;
 
-  /// In the child: becomes the program, with standard input empty. Returns errno when it cannot.
-  int execute(int output, int errors) const {
-    dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
-    dup2(output, STDOUT_FILENO);
-    dup2(errors, STDERR_FILENO);
-    execvpe(word_pointers_[0], word_pointers_.data(), variable_pointers_.data());
-    return errno;
-  }
+Words words_of(const std::string& program, const std::vector<std::string>& arguments) {
+  Words words{program.c_str()};
+  for (const std::string& word : arguments) words.push_back(word.c_str());
+  words.push_back(nullptr);
+  return words;
+}
 
- private:
-  std::vector<std::string> words_, environment_;
-  std::vector<char*> word_pointers_, variable_pointers_;
-};
-
-/// Ours, with nothing that changes what gnuplot writes.
-std::vector<std::string> plain_environment() {
-  std::vector<std::string> variables{"LC_ALL=C"};
+/// Our environment without the variables that begin with one of `dropped`, and with `added`.
+Words changed_environment(std::initializer_list<std::string_view> dropped, Words added) {
   for (char** entry = environ; *entry; ++entry) {
     const std::string_view variable = *entry;
-    if (!variable.starts_with("LC_ALL=") && !variable.starts_with("GNUPLOT") &&
-        !variable.starts_with("GNUTERM="))
-      variables.emplace_back(variable);
+    if (std::ranges::none_of(dropped, [&](auto begin) { return variable.starts_with(begin); }))
+      added.push_back(*entry);
   }
-  return variables;
+  added.push_back(nullptr);
+  return added;
 }
 
-std::vector<std::string> environment_with_one_algebra_thread() {
-  std::vector<std::string> variables;
-  for (char** entry = environ; *entry; ++entry) variables.emplace_back(*entry);
-  for (const std::string name : algebra_threads)
-    if (!getenv(name.c_str())) variables.push_back(name + "=1");
-  return variables;
+/// Those of one_algebra_thread of which our environment says nothing.
+Words unsaid_threads() {
+  Words unsaid;
+  for (const std::string_view variable : one_algebra_thread)
+    if (!getenv(std::string(variable.substr(0, variable.find('='))).c_str()))
+      unsaid.push_back(variable.data());
+  return unsaid;
 }
 
-/// A log to append to; closed with it.
-struct Log {
-  explicit Log(const fs::path& file)
-      : descriptor(open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
-    if (descriptor < 0) throw_file_error(file, "open");
-  }
-  ~Log() { close(descriptor); }
-  Log(const Log&) = delete;
-  Log& operator=(const Log&) = delete;
-  const int descriptor;
-};
-
-ChildProcess start_beside(const fs::path& program, const std::vector<std::string>& arguments,
-                          const fs::path& file) {
-  const Log log(file);
-  const Call call(program.string(), arguments, environment_with_one_algebra_thread());
-  return ChildProcess([&] {
-    setpgid(0, 0);
-    const int error = call.execute(log.descriptor, log.descriptor);
-    dprintf(STDERR_FILENO, "ballast: %s: cannot be started: %s\n", program.c_str(),
-            std::strerror(error));
-    _exit(127);
-  });
+/// In the child: becomes the program. Returns errno when it cannot.
+int become(const Words& words, const Words& environment, int input, int output, int errors) {
+  dup2(input, STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  dup2(errors, STDERR_FILENO);
+  execvpe(words[0], const_cast<char* const*>(words.data()),
+          const_cast<char* const*>(environment.data()));
+  return errno;
 }
+
+int nothing_to_read() { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
 }  // namespace
 
@@ -113,12 +202,14 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
                           double seconds) {
   constexpr rlim_t most_bytes = 256u << 20;
   const MemoryFile output, errors, failure;  // failure: why the program could not be started
-  const Call call(program, arguments, plain_environment());
+  // Nothing that changes what gnuplot writes.
+  const Words words = words_of(program, arguments),
+              environment = changed_environment({"LC_ALL=", "GNUPLOT", "GNUTERM="}, {"LC_ALL=C"});
   ChildProcess child([&] {
     const rlimit limit{most_bytes, most_bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
-    const int error = call.execute(output.descriptor(), errors.descriptor());
-    dprintf(failure.descriptor(), "%s", std::strerror(error));
+    const int error = become(words, environment, nothing_to_read(), output.number, errors.number);
+    dprintf(failure.number, "%s", std::strerror(error));
     _exit(127);
   });
   ProgramResult result;
@@ -134,11 +225,21 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
   return result;
 }
 
-BackgroundProgram::BackgroundProgram(const fs::path& program,
-                                     const std::vector<std::string>& arguments, const fs::path& log)
-    : child_(start_beside(program, arguments, log)) {}
-
-void BackgroundProgram::stop() const { child_.send(SIGTERM); }
+std::unique_ptr<ChildProcess> start_program(const fs::path& program,
+                                            const std::vector<std::string>& arguments,
+                                            const fs::path& log) {
+  const int opened = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (opened < 0) throw_file_error(log, "open");
+  const Descriptor file(opened);
+  const Words words = words_of(program.native(), arguments),
+              environment = changed_environment({}, unsaid_threads());
+  return std::make_unique<ChildProcess>([&] {
+    setpgid(0, 0);
+    const int error = become(words, environment, nothing_to_read(), file.number, file.number);
+    dprintf(STDERR_FILENO, "ballast: %s: cannot be started: %s\n", words[0], std::strerror(error));
+    _exit(127);
+  });
+}
 
 // ---- somebody else's program
 
@@ -146,116 +247,76 @@ namespace {
 
 constexpr size_t longest_line = 4096, longest_complaint = 8192;  // bytes that are kept
 
-/// Two ends of a connection: what is written to one is read at the other.
+/// Two ends of a connection, and both directions of it: what is written to one is read at the
+/// other. Sockets, because writing to one that nobody reads is an error here and not a signal.
 struct Ends {
-  int ours = -1, theirs = -1;
+  Ends() {
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw_no_child();
+    ours = ends[0];
+    theirs = ends[1];
+  }
+  int ours, theirs;
 };
 
-/// Sockets, because writing to one that nobody reads is an error here and not a signal.
-Ends connect_ends() {
-  int ends[2];
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    throw Error(std::string("cannot start a program: ") + std::strerror(errno));
-  return {ends[0], ends[1]};
-}
-
-/// The kernel lists them, each followed by a blank; what does not fit is met in the next round.
-void kill_own_children() {
-  char list[4096];
-  const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
-  const ssize_t size = read(file, list, sizeof list - 1);
-  close(file);
-  list[std::max<ssize_t>(size, 0)] = '\0';
-  char* end = list;
-  for (char* next = list; *next != '\0'; next = end + 1) {
-    const long child = std::strtol(next, &end, 10);
-    if (end == next || *end != ' ') return;
-    kill(static_cast<pid_t>(child), SIGKILL);
-  }
-}
-
-/// In the supervisor, to which every orphan of the program falls: until there is none left.
-void end_descendants(pid_t program) {
-  kill(-program, SIGKILL);
-  for (;;) {
-    const pid_t ended = waitpid(-1, nullptr, WNOHANG);
-    if (ended < 0 && errno == ECHILD) return;
-    if (ended > 0) continue;
-    kill_own_children();
-    waitpid(-1, nullptr, 0);
-  }
-}
-
-struct Start {
-  const char* const* words;
-  const SupervisedLimits& limits;
-  Ends input, output, errors;
-};
-
-/// In the program's process.
-[[noreturn]] void become_program(const Start& start) {
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (start.limits.memory_MB > 0.0) {
-    const auto bytes = static_cast<rlim_t>(start.limits.memory_MB * 1048576.0);
-    const rlimit limit{bytes, bytes};
-    setrlimit(RLIMIT_AS, &limit);
-  }
-  dup2(start.input.theirs, STDIN_FILENO);
-  dup2(start.output.theirs, STDOUT_FILENO);
-  dup2(start.errors.theirs, STDERR_FILENO);
-  if (start.limits.folder.empty() || chdir(start.limits.folder.c_str()) == 0)
-    execv(start.words[0], const_cast<char* const*>(start.words));
-  dprintf(STDERR_FILENO, "cannot be started: %s\n", std::strerror(errno));
-  _exit(127);
-}
-
-/// In the supervisor: ends with the program's status when that ends, and when it is asked to.
-[[noreturn]] void supervise(const Start& start) {
-  sigset_t awaited;
-  sigemptyset(&awaited);
-  sigaddset(&awaited, SIGCHLD);
-  sigaddset(&awaited, SIGTERM);
-  sigprocmask(SIG_BLOCK, &awaited, nullptr);
-  signal(SIGCHLD, SIG_DFL);
-  // Out of reach of the terminal's Ctrl-C; told when our parent dies; adopts who loses a parent.
-  setsid();
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  prctl(PR_SET_CHILD_SUBREAPER, 1);
-  const pid_t program = fork();
-  if (program < 0) _exit(127);
-  if (program == 0) become_program(start);
-  setpgid(program, program);
-  // No end of the program's streams may stay open here: nobody would see that it closed them.
-  close_range(0, ~0U, 0);
-  int status = 128 + SIGKILL;
-  for (bool goes_on = true; goes_on;) {
-    if (sigwaitinfo(&awaited, nullptr) == SIGTERM) break;
-    int how = 0;
-    for (pid_t ended; (ended = waitpid(-1, &how, WNOHANG)) > 0;) {
-      if (ended != program) continue;
-      status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
-      goes_on = false;
+/// In the supervisor, to which every orphan of the program falls: kills its children until there
+/// are none, and ends.
+[[noreturn]] void end_descendants(int status) {
+  do {
+    // The kernel lists them, each followed by a blank; what does not fit is met in the next round.
+    char list[4096];
+    const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
+    const ssize_t size = read(file, list, sizeof list - 1);
+    close(file);
+    list[std::max<ssize_t>(size, 0)] = '\0';
+    char* end = list;
+    for (char* next = list; *next != '\0'; next = end + 1) {
+      const long child = std::strtol(next, &end, 10);
+      if (end == next || *end != ' ') break;
+      kill(static_cast<pid_t>(child), SIGKILL);
     }
-  }
-  end_descendants(program);
+  } while (waitpid(-1, nullptr, 0) > 0);
   _exit(status);
 }
 
-/// Takes what is there, at most once; false when the other end has been closed.
-bool take(int descriptor, std::string& text) {
-  char block[1 << 16];
-  const ssize_t got = read(descriptor, block, sizeof block);
-  if (got > 0) text.append(block, static_cast<size_t>(got));
-  return got > 0 || (got < 0 && (errno == EINTR || errno == EAGAIN));
+/// In the supervisor: ends with the status of the program, which `become_program` makes of a child,
+/// and when it is asked to.
+template <class Become>
+[[noreturn]] void supervise(const Become& become_program) {
+  // From here on SIGTERM clears up. Its parent's death is one. It adopts who loses a parent, and is
+  // out of reach of the terminal's Ctrl-C.
+  signal(SIGTERM, [](int) { end_descendants(128 + SIGKILL); });
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  setsid();
+  const pid_t program = fork();
+  if (program < 0) _exit(127);
+  if (program == 0) {
+    signal(SIGTERM, SIG_DFL);
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    become_program();
+    dprintf(STDERR_FILENO, "cannot be started: %s\n", std::strerror(errno));
+    _exit(127);
+  }
+  // No end of the program's streams may stay open here: nobody would see that it closed them.
+  close_range(0, ~0U, 0);
+  int how = 0;
+  while (waitpid(-1, &how, 0) != program) {
+  }
+  end_descendants(status_of(how));
 }
 
-void close_end(int& descriptor) {
-  if (descriptor >= 0) close(descriptor);
-  descriptor = -1;
+/// Takes what is there, at most once; closes a descriptor whose other end has been closed.
+void take(int& descriptor, std::string& text) {
+  char block[1 << 16];
+  const ssize_t got = read(descriptor, block, sizeof block);
+  if (got > 0) {
+    text.append(block, static_cast<size_t>(got));
+  } else if (got == 0 || (errno != EINTR && errno != EAGAIN)) {
+    close(descriptor);
+    descriptor = -1;
+  }
 }
 
 }  // namespace
@@ -263,52 +324,57 @@ void close_end(int& descriptor) {
 SupervisedProgram::SupervisedProgram(const std::string& command,
                                      const std::vector<std::string>& arguments,
                                      const SupervisedLimits& limits) {
-  // All memory is asked for before the fork.
   const std::string script = command + " \"$@\"";
-  std::vector<const char*> words{"/bin/sh", "-c", script.c_str(), "sh"};
-  for (const std::string& word : arguments) words.push_back(word.c_str());
-  words.push_back(nullptr);
-  const Start start{words.data(), limits, connect_ends(), connect_ends(), connect_ends()};
-  input_ = start.input.ours;
-  output_ = start.output.ours;
-  errors_ = start.errors.ours;
-  // Asked to end before it is ready to hear that, the supervisor shall hear it then.
-  sigset_t ending, before;
-  sigemptyset(&ending);
-  sigaddset(&ending, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &ending, &before);
-  supervisor_ = std::make_unique<ChildProcess>([&] { supervise(start); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  for (int end : {start.input.theirs, start.output.theirs, start.errors.theirs}) close_end(end);
+  Words words{"/bin/sh", "-c", script.c_str()};
+  const Words given = words_of("sh", arguments);
+  words.insert(words.end(), given.begin(), given.end());
+  const Words environment = changed_environment({}, {});
+  const Ends talk, errors;
+  talk_ = talk.ours;
+  errors_ = errors.ours;
+  const auto become_program = [&] {
+    if (limits.memory_MB > 0.0) {
+      const auto bytes = static_cast<rlim_t>(limits.memory_MB * 1048576.0);
+      const rlimit limit{bytes, bytes};
+      setrlimit(RLIMIT_AS, &limit);
+    }
+    dup2(errors.theirs, STDERR_FILENO);
+    if (limits.folder.empty() || chdir(limits.folder.c_str()) == 0)
+      become(words, environment, talk.theirs, talk.theirs, errors.theirs);
+  };
+  supervisor_ = std::make_unique<ChildProcess>([&] { supervise(become_program); });
+  close(talk.theirs);
+  close(errors.theirs);
 }
 
 SupervisedProgram::~SupervisedProgram() {
   // The supervisor clears up; if even it does not end, ChildProcess kills it.
   supervisor_->send(SIGTERM);
   supervisor_->ends_within(10.0);
-  close_input();
-  close_end(output_);
-  close_end(errors_);
+  for (const int end : {talk_, errors_})
+    if (end >= 0) close(end);
 }
 
 bool SupervisedProgram::write_line(const std::string& line) const {
   const std::string text = line + '\n';
-  return input_ >= 0 && send(input_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
-                            static_cast<ssize_t>(text.size());
+  return send(talk_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
+         static_cast<ssize_t>(text.size());
 }
 
-void SupervisedProgram::close_input() { close_end(input_); }
+void SupervisedProgram::close_input() const { shutdown(talk_, SHUT_WR); }
 
-/// Waits until it says something, and takes that; false when it has closed both of its streams.
+/// Waits until it says something or closes its streams, and takes that; false when nothing came.
 bool SupervisedProgram::listen(double seconds) {
-  pollfd waiting[] = {{output_, POLLIN, 0}, {errors_, POLLIN, 0}};
-  if (output_ < 0 && errors_ < 0) return false;
-  poll(waiting, 2, static_cast<int>(std::ceil(1e3 * std::clamp(seconds, 0.0, 0.1))));
-  if (waiting[0].revents != 0 && !take(output_, heard_)) close_end(output_);
-  if (waiting[1].revents != 0 && !take(errors_, complaints_)) close_end(errors_);
+  // Having closed them it may go on: then its end is looked for every millisecond.
+  const double most = talk_ < 0 && errors_ < 0 ? 0.001 : 0.1;
+  pollfd waiting[] = {{talk_, POLLIN, 0}, {errors_, POLLIN, 0}};
+  const bool came =
+      poll(waiting, 2, static_cast<int>(std::ceil(1e3 * std::min(seconds, most)))) > 0;
+  if (waiting[0].revents != 0) take(talk_, heard_);
+  if (waiting[1].revents != 0) take(errors_, complaints_);
   if (complaints_.size() > longest_complaint)
     complaints_.erase(0, complaints_.size() - longest_complaint);
-  return true;
+  return came;
 }
 
 SupervisedProgram::Heard SupervisedProgram::read_line(std::string& line, double seconds) {
@@ -321,7 +387,7 @@ SupervisedProgram::Heard SupervisedProgram::read_line(std::string& line, double 
     }
     // A line without end: only its beginning will be asked for.
     if (heard_.size() > longest_line) heard_.resize(longest_line);
-    if (output_ < 0) return Heard::end;
+    if (talk_ < 0) return Heard::end;
     const double left = seconds - watch.seconds();
     if (!(left > 0.0) || InterruptGuard::requested()) return Heard::out_of_time;
     listen(left);
@@ -329,17 +395,13 @@ SupervisedProgram::Heard SupervisedProgram::read_line(std::string& line, double 
 }
 
 bool SupervisedProgram::wait(double seconds) {
-  constexpr int pause = 200;  // microseconds
-  const Stopwatch watch;
-  while (!supervisor_->has_ended()) {
+  for (const Stopwatch watch; !supervisor_->has_ended(); heard_.clear()) {
     const double left = seconds - watch.seconds();
     if (!(left > 0.0) || InterruptGuard::requested()) return false;
-    // It may close its streams and go on.
-    if (!listen(left)) usleep(pause);
-    heard_.clear();
+    listen(left);
   }
-  // What it said before it ended.
-  for (pollfd last{errors_, POLLIN, 0}; errors_ >= 0 && poll(&last, 1, 0) > 0;) listen(0.0);
+  while (listen(0.0)) {  // what it said before it ended
+  }
   return true;
 }
 
@@ -363,12 +425,7 @@ std::string last_line(const fs::path& log) {
 }
 
 std::string shell_word(const std::string& word) {
-  const bool is_plain =
-      !word.empty() &&
-      word.find_first_not_of(
-          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,@%") ==
-          std::string::npos;
-  if (is_plain) return word;
+  if (is_plain(word, "_-./=+:,@%")) return word;
   // Within single quotes a shell takes everything as it is but the quote itself, which
   // is put in from outside of them.
   std::string quoted = "'";
@@ -378,34 +435,29 @@ std::string shell_word(const std::string& word) {
 
 std::string shell_line(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) {
-    if (!line.empty()) line += ' ';
-    line += shell_word(word);
-  }
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
   return line;
 }
 
 fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
 
 std::vector<std::string> own_words() {
-  std::vector<std::string> words;
-  const std::string text = read_whole_file("/proc/self/cmdline");
-  for (size_t begin = 0; begin < text.size();) {
-    const size_t end = std::min(text.find('\0', begin), text.size());
-    words.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  // Each is followed by a zero.
+  std::vector<std::string> words = split(read_whole_file("/proc/self/cmdline"), '\0');
+  words.pop_back();
   return words;
 }
 
 void restart_with_one_algebra_thread() {
-  std::vector<std::string> words = own_words();
-  if (std::ranges::all_of(algebra_threads, getenv) || words.empty()) return;
-  for (const char* name : algebra_threads) setenv(name, "1", 0);
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
+  const std::vector<std::string> words = own_words();
+  const Words unsaid = unsaid_threads();
+  if (unsaid.empty() || words.empty()) return;
+  const Words environment = changed_environment({}, unsaid);
+  Words pointers;
+  for (const std::string& word : words) pointers.push_back(word.c_str());
   pointers.push_back(nullptr);
-  execv("/proc/self/exe", pointers.data());
+  execve("/proc/self/exe", const_cast<char* const*>(pointers.data()),
+         const_cast<char* const*>(environment.data()));
   throw Error("cannot start anew with OPENBLAS_NUM_THREADS=1");
 }
 

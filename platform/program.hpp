@@ -1,22 +1,68 @@
 #pragma once
-// Other programs as children: one whose output is waited for, one that runs beside us and writes
-// into a log, one that nobody trusts, and this program anew.
+// Other processes: copies of this program for work that may crash, hang or leak, programs whose
+// output is waited for, that run beside us, or that nobody trusts; and this program anew.
+
+#include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "platform/child_process.hpp"
-
 namespace ballast {
+
+enum class ChildEnd { complete, out_of_time, crashed };
+
+struct ChildResult {
+  ChildEnd end = ChildEnd::crashed;
+  std::string answer;  ///< the bytes that `work` returned there; empty unless complete
+};
+
+/// Runs `work` in a forked child and waits for the bytes that it returns (platform/pack.hpp makes
+/// and reads them), at most `max_seconds` of wall clock; then the child is killed. Only an answer
+/// that arrived whole counts, whatever the exit code says (Debian's Ipopt can die with code 0). The
+/// child prints nowhere and lets no exception out. Throws Error when no process can be made.
+ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work);
+
+/// This process was made by run_in_child(): what crashes, hangs or leaks here harms nobody, and
+/// needs no further child.
+bool is_expendable_process();
+
+/// A forked child. It dies with this process (SIGKILL), however that comes about; the destructor
+/// kills it if it still runs, and waits for it.
+class ChildProcess {
+ public:
+  /// The child does `live` alone: no destructor or exit handler of this process runs there. When
+  /// `live` returns or throws, it ends with exit code 1. Throws Error when no process can be made.
+  /// Not to be called with threads about, unless `live` only executes another program.
+  explicit ChildProcess(const std::function<void()>& live);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// It has ended; status() holds then.
+  bool has_ended() { return collect(false); }
+  /// Waits at most so long; whether it has ended.
+  bool ends_within(double seconds);
+  /// Exit code; 128 + signal when a signal ended it.
+  int status() const { return status_; }
+  /// Nothing when it has ended.
+  void send(int signal) const;
+
+ private:
+  bool collect(bool waits);
+
+  pid_t child_ = -1;  // -1: waited for
+  int status_ = 0;
+};
 
 struct ProgramResult {
   bool was_found = true;   ///< the program is on PATH
   bool timed_out = false;  ///< and was killed
   int status = 0;          ///< exit code; 128 + signal when a signal ended it
   std::string output;      ///< standard output
-  std::string errors;      ///< standard error
+  std::string errors;      ///< standard error; of a program that was not found, why
   bool succeeded() const { return was_found && !timed_out && status == 0; }
 };
 
@@ -26,26 +72,14 @@ struct ProgramResult {
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           double seconds);
 
-/// A program that runs beside this one and writes into a log. It is in a process group of its own,
-/// so that Ctrl-C reaches it only by stop(); it dies with this process.
-class BackgroundProgram {
- public:
-  /// `program`: a path. What it writes is appended to `log`. Linear algebra in one thread
-  /// (OPENBLAS_NUM_THREADS=1 ...) unless the environment says otherwise. Throws Error when there
-  /// can be no child.
-  BackgroundProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                    const std::filesystem::path& log);
-
-  /// It has ended; status() holds then.
-  bool has_ended() { return child_.has_ended(); }
-  /// Exit code; 128 + signal when a signal ended it; 127 when it could not be started.
-  int status() const { return child_.status(); }
-  /// Asks it to end (SIGTERM): runs write a checkpoint first.
-  void stop() const;
-
- private:
-  ChildProcess child_;
-};
+/// Starts a program (a path) that runs beside this one; what it writes is appended to `log`. It is
+/// in a process group of its own: Ctrl-C does not reach it, and SIGTERM asks it to end (runs write
+/// a checkpoint first). Linear algebra in one thread (OPENBLAS_NUM_THREADS=1 ...) unless the
+/// environment says otherwise. Its status is 127 when it could not be started. Throws Error when
+/// there can be no child.
+std::unique_ptr<ChildProcess> start_program(const std::filesystem::path& program,
+                                            const std::vector<std::string>& arguments,
+                                            const std::filesystem::path& log);
 
 // Somebody else's program, of which nothing is believed: whatever it does, waiting for it ends in
 // time, what it writes takes no memory here, and no process of its making is left.
@@ -71,11 +105,12 @@ class SupervisedProgram {
   /// One line for its standard input; false when it does not take it.
   bool write_line(const std::string& line) const;
   /// Its standard input ends.
-  void close_input();
+  void close_input() const;
 
   enum class Heard { line, end, out_of_time };
-  /// The next line of its standard output, without the line's end and cut at 4 kB. The time is
-  /// over as well when somebody asks this process to stop (InterruptGuard).
+  /// The next line of its standard output, without the line's end and cut at 4 kB; its end when it
+  /// has closed both that and its input. The time is over as well when somebody asks this process
+  /// to stop (InterruptGuard).
   Heard read_line(std::string& line, double seconds);
   /// Until it has ended, whatever it writes meanwhile; false: it still runs.
   bool wait(double seconds);
@@ -88,7 +123,7 @@ class SupervisedProgram {
  private:
   bool listen(double seconds);
 
-  int input_ = -1, output_ = -1, errors_ = -1;
+  int talk_ = -1, errors_ = -1;  // its standard input and output; its standard error
   std::string heard_, complaints_;
   std::unique_ptr<ChildProcess> supervisor_;
 };

@@ -3,30 +3,26 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
-
 namespace {
 
-constexpr char magic[8] = {'B', 'A', 'L', 'L', 'R', 'O', 'W', 'S'};
-constexpr std::uint32_t version = 1;
-constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint64_t largest_row = std::uint64_t{1} << 32;  // numbers: 300 million bodies
 
 /// The file, with a checksum (8 bytes) behind the header and behind every row:
 ///
 ///     | FixedHeader 40 | SafeMark 16 | text | checksum | row 0 | checksum | row 1 | checksum | ...
 struct FixedHeader {
-  char magic[8];
-  std::uint32_t version, byte_order;
-  std::uint64_t row_size, owner, text_length;
+  char magic[8] = {'B', 'A', 'L', 'L', 'R', 'O', 'W', 'S'};
+  std::uint32_t version = 1, byte_order = 0x01020304;
+  std::uint64_t row_size = 0, owner = 0, text_length = 0;
 };
 static_assert(sizeof(FixedHeader) == 40);
+constexpr size_t kind_bytes = 16;  // of the header: the same in all files
 
 template <class Object>
 std::string_view bytes_of(const Object& object) {
@@ -66,28 +62,11 @@ OpenedFile open_file(const std::filesystem::path& path, const char* mode, const 
 
 RowReader::RowReader(const std::filesystem::path& file)
     : path_(file), file_(open_file(file, "rb", "open")) {
-  read_header();
-  std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
-  if (error) throw Error(path_.string() + ": cannot read: " + error.message());
-  // The length of the file says how many whole rows there may be; their checksums decide later.
-  row_count_ = static_cast<long>((bytes - header_bytes_) / row_bytes(header_.row_size));
-  if (safe_count_ < 0 || row_count_ < safe_count_)
-    throw Error(path_.string() + ": is truncated: " + std::to_string(row_count_) + " rows of " +
-                std::to_string(safe_count_) + " are there");
-  // Memory only for a row that the file is long enough for.
-  if (row_count_ > 0) values_.resize(header_.row_size);
-}
-
-void RowReader::read_header() {
+  const auto refuse = [&](const std::string& why) { throw Error(path_.string() + ": " + why); };
   FixedHeader fixed;
   read(&fixed, sizeof fixed);
-  const auto refuse = [&](const std::string& why) { throw Error(path_.string() + ": " + why); };
-  if (std::memcmp(fixed.magic, magic, sizeof magic) != 0) refuse("is not a log of a ballast run");
-  if (fixed.byte_order != byte_order) refuse("was written on a machine of another byte order");
-  if (fixed.version != version)
-    refuse("is a log of format " + std::to_string(fixed.version) + ", this program reads format " +
-           std::to_string(version));
+  if (!bytes_of(fixed).starts_with(bytes_of(FixedHeader()).substr(0, kind_bytes)))
+    refuse("is not a log of a run of this program");
   // The mark has a checksum of its own: it is written again and again while the header stays.
   SafeMark safe;
   read(&safe, sizeof safe);
@@ -98,16 +77,21 @@ void RowReader::read_header() {
   // A row has a number at least; the bytes of one can be counted.
   if (fixed.row_size == 0 || fixed.row_size > largest_row)
     refuse("is damaged: a row of " + std::to_string(fixed.row_size) + " numbers");
-  header_.text.resize(fixed.text_length);
+  header_ = {std::string(fixed.text_length, ' '), fixed.owner, fixed.row_size};
   read(header_.text.data(), header_.text.size());
   std::uint64_t checksum;
   read(&checksum, sizeof checksum);
   if (checksum != header_checksum(fixed, header_.text))
     refuse("is damaged: the checksum of its header is wrong");
-  header_.row_size = fixed.row_size;
-  header_.owner = fixed.owner;
-  safe_count_ = static_cast<long>(safe.rows);
   header_bytes_ = sizeof fixed + sizeof safe + header_.text.size() + sizeof checksum;
+  // The length of the file says how many whole rows there may be; their checksums decide later.
+  row_count_ = static_cast<long>((bytes - header_bytes_) / row_bytes(header_.row_size));
+  safe_count_ = static_cast<long>(safe.rows);
+  if (safe_count_ < 0 || row_count_ < safe_count_)
+    refuse("is truncated: " + std::to_string(row_count_) + " rows of " +
+           std::to_string(safe_count_) + " are there");
+  // Memory only for a row that the file is long enough for.
+  if (row_count_ > 0) values_.resize(header_.row_size);
 }
 
 void RowReader::read(void* data, size_t bytes) {
@@ -144,8 +128,8 @@ void RowReader::rewind() {
 
 RowWriter::RowWriter(const std::filesystem::path& file, const RowLogHeader& header)
     : path_(file), file_(open_file(file, "wb", "write")), row_size_(header.row_size) {
-  FixedHeader fixed{{}, version, byte_order, header.row_size, header.owner, header.text.size()};
-  std::memcpy(fixed.magic, magic, sizeof magic);
+  const FixedHeader fixed{
+      .row_size = header.row_size, .owner = header.owner, .text_length = header.text.size()};
   const std::uint64_t checksum = header_checksum(fixed, header.text);
   const SafeMark safe;
   for (const std::string_view part :

@@ -29,14 +29,15 @@ struct RowLogHeader {
 
 using OpenedFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-/// Reads rows from the first. Every defect is a Error that names the file.
+/// Reads rows from the first. Every defect is an Error that names the file.
 class RowReader {
  public:
   explicit RowReader(const std::filesystem::path& file);
 
   const RowLogHeader& header() const { return header_; }
-  /// Rows that must be there.
+  /// Rows that must be there, and those that the file is long enough for.
   long safe_count() const { return safe_count_; }
+  long row_count() const { return row_count_; }
   /// Bytes before the first row.
   size_t header_bytes() const { return header_bytes_; }
 
@@ -46,14 +47,13 @@ class RowReader {
   void rewind();
 
  private:
-  void read_header();
   void read(void* data, size_t bytes);
 
   std::filesystem::path path_;
   OpenedFile file_;
   RowLogHeader header_;
   size_t header_bytes_ = 0;
-  long row_count_ = 0, safe_count_ = 0, row_ = 0;  // row_count_: by the file's length
+  long row_count_ = 0, safe_count_ = 0, row_ = 0;
   std::vector<double> values_;
 };
 

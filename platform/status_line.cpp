@@ -1,65 +1,34 @@
 #include "platform/status_line.hpp"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 namespace ballast {
-namespace {
-
-/// Of the terminal that stderr is: a longer line could not be rewritten. Asked each time, as
-/// windows change.
-size_t terminal_columns() {
-  winsize window{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 ? window.ws_col - 1u
-                                                                             : std::string::npos;
-}
-
-}  // namespace
 
 StatusLine::Style StatusLine::style_of_stderr() {
-  return isatty(STDERR_FILENO) ? Style::bar : Style::lines;
+  const char* terminal = std::getenv("TERM");
+  const bool rewrites = terminal && std::string_view(terminal) != "dumb";
+  return rewrites && isatty(STDERR_FILENO) ? Style::bar : Style::lines;
 }
 
-size_t StatusLine::columns() const {
-  if (columns_ > 0) return columns_;
-  return &out_ == &std::cerr ? terminal_columns() : std::string::npos;
-}
-
-void StatusLine::write(std::string text) {
+void StatusLine::write(const std::string& text) {
   if (style_ == Style::quiet) return;
-  if (style_ == Style::bar) {
-    text = cut_to(text, columns());
-    const size_t length = columns_of(text);
-    // Back to the first column; blanks cover what the longer line before has left.
-    out_ << '\r' << text;
-    if (length < length_) out_ << std::string(length_ - length, ' ');
-    open_ = true;
-    length_ = length;
-  } else {
-    out_ << text << '\n';
-  }
-  out_ << std::flush;
+  open_ = style_ == Style::bar;
+  // The terminal goes back to the first column, wipes the line, and cuts what is longer than it: a
+  // line that is continued in a second one could not be rewritten.
+  if (open_)
+    out_ << "\r\x1b[K\x1b[?7l" << text << "\x1b[?7h" << std::flush;
+  else
+    out_ << text << std::endl;
 }
 
 void StatusLine::end() {
-  if (open_) out_ << '\n' << std::flush;
+  if (open_) out_ << std::endl;
   open_ = false;
-  length_ = 0;
-}
-
-size_t columns_of(const std::string& text) {
-  return static_cast<size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-std::string cut_to(const std::string& text, size_t columns) {
-  size_t end = 0, count = 0;
-  for (; end < text.size(); ++end)
-    if ((text[end] & 0xC0) != 0x80 && count++ == columns) break;
-  return text.substr(0, end);
 }
 
 std::string bar_text(double fraction) {

@@ -19,9 +19,7 @@ class StatusLine {
   /// bar if stderr is a terminal, else lines.
   static Style style_of_stderr();
 
-  /// `columns`: of what a bar is written to; 0: of the terminal where that is stderr.
-  StatusLine(Style style, std::ostream& out, size_t columns = 0)
-      : style_(style), out_(out), columns_(columns) {}
+  StatusLine(Style style, std::ostream& out) : style_(style), out_(out) {}
   ~StatusLine() { end(); }
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
@@ -32,10 +30,7 @@ class StatusLine {
     return style_ == Style::bar ? 0.1 : style_ == Style::json ? 1.0 : 10.0;
   }
 
-  /// What fits into a line; without a terminal there is no bound.
-  size_t columns() const;
-
-  void write(std::string text);
+  void write(const std::string& text);
   /// Ends the line that is being rewritten, if one is: to be called before anything else is
   /// printed.
   void end();
@@ -43,14 +38,8 @@ class StatusLine {
  private:
   Style style_;
   std::ostream& out_;
-  size_t columns_;
   bool open_ = false;
-  size_t length_ = 0;  // in columns
 };
-
-/// Letters of a text in UTF-8, each of one column; and its first `columns` of them.
-size_t columns_of(const std::string& text);
-std::string cut_to(const std::string& text, size_t columns);
 
 /// "[####........] "
 std::string bar_text(double fraction);

@@ -10,7 +10,7 @@
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/step/step_record.hpp"
 #include "experiments/step/time_step.hpp"
-#include "platform/child_process.hpp"
+#include "platform/program.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/pack.hpp"

@@ -13,7 +13,6 @@
 #include "experiments/run/run_folder.hpp"
 #include "experiments/step/time_step.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/child_process.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "platform/child_process.hpp"
+#include "platform/program.hpp"
 #include "platform/clock.hpp"
 #include "platform/pack.hpp"
 

@@ -1,7 +1,7 @@
 #include "experiments/measure/exact_answer.hpp"
 
 #include "platform/atomic_file.hpp"
-#include "platform/child_process.hpp"
+#include "platform/program.hpp"
 #include "platform/error.hpp"
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"

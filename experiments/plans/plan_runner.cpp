@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include <signal.h>
 #include <unistd.h>
 
 #include "experiments/box/packing.hpp"
@@ -162,7 +163,7 @@ class Engine {
           (InterruptGuard::requested() || seconds() > options_.max_seconds)) {
         stopped = InterruptGuard::requested() ? ExitCode::failure : ExitCode::time_limit;
         // they write a checkpoint and end; the loop goes on until all have
-        for (const auto& [task, worker] : workers_) worker->stop();
+        for (const auto& [task, worker] : workers_) worker->send(SIGTERM);
       }
       progress_.show(seconds());
       if (seconds() > indexed_ + 20.0) index();
@@ -192,7 +193,7 @@ class Engine {
       const bool ready = !deposit || deposit->state == TaskState::finished;
       if (!may_start || !ready || workers_.size() >= static_cast<size_t>(options_.jobs)) continue;
       // runs wait for their packing, and everything for a free process
-      workers_.emplace(k, std::make_unique<BackgroundProgram>(program_, task.arguments, task.log));
+      workers_.emplace(k, start_program(program_, task.arguments, task.log));
       task.state = TaskState::running;
       begun_[k] = seconds();
       started = true;
@@ -246,7 +247,7 @@ class Engine {
   PlanProgress progress_;
   Stopwatch watch_;
   double indexed_ = 0.0;
-  std::map<size_t, std::unique_ptr<BackgroundProgram>> workers_;  // by task
+  std::map<size_t, std::unique_ptr<ChildProcess>> workers_;  // by task
   std::map<size_t, double> begun_;
 };
 

@@ -83,10 +83,7 @@ long steps_in_log(const fs::path& run_folder) {
   const fs::path log = RunFolder(run_folder).steps_log();
   if (!is_there(log)) return 0;
   try {
-    const RowReader reader(log);
-    const std::uintmax_t bytes = fs::file_size(log) - reader.header_bytes();
-    return static_cast<long>(bytes /
-                             (sizeof(double) * reader.header().row_size + sizeof(std::uint64_t)));
+    return RowReader(log).row_count();
   } catch (const Error&) {  // just being made
     return 0;
   }

@@ -17,8 +17,8 @@ Progress::Progress(Telling telling)
                telling == Telling::program ? std::cout : std::cerr,
                [watch = Stopwatch()] { return watch.seconds(); }) {}
 
-Progress::Progress(Style style, std::ostream& out, std::function<double()> clock, size_t columns)
-    : line_(style, out, columns), clock_(std::move(clock)) {}
+Progress::Progress(Style style, std::ostream& out, std::function<double()> clock)
+    : line_(style, out), clock_(std::move(clock)) {}
 
 void Progress::show(std::string_view label, double time, double total, const StepRecord& record,
                     double rms_velocity) {

@@ -26,8 +26,8 @@ class Progress {
 
   /// To stderr: a bar if that is a terminal, else lines. To stdout: JSON.
   explicit Progress(Telling telling = Telling::reader);
-  /// `clock`: seconds from anywhere, increasing. `columns`: 0: as many as the terminal has.
-  Progress(Style style, std::ostream& out, std::function<double()> clock, size_t columns = 0);
+  /// `clock`: seconds from anywhere, increasing.
+  Progress(Style style, std::ostream& out, std::function<double()> clock);
 
   /// After each step: `time` of `total` [s], NaN where that is not known, in the phase `label`.
   /// Steps are counted by the calls; rate and time left are those since the first call.

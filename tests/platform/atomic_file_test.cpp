@@ -10,9 +10,9 @@
 #include <string>
 #include <thread>
 
-#include "platform/child_process.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
+#include "platform/program.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -2,16 +2,19 @@
 
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <thread>
+#include <stdexcept>
 
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/environment_guard.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
@@ -19,15 +22,135 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ProgramResult shell(const std::string& script, double seconds = 30.0) {
-  return run_program("sh", {"-c", script}, seconds);
+/// No child is left over, running or dead.
+bool no_children() { return waitpid(-1, nullptr, WNOHANG) == -1; }
+
+[[noreturn]] void wait_for_ever() {
+  for (;;) pause();
 }
 
-int status_of(BackgroundProgram& program) {
+int status_of(ChildProcess& child) {
+  REQUIRE(child.ends_within(30.0));
+  return child.status();
+}
+
+/// The process that wrote its number into the file runs; waits for the file.
+bool runs(const fs::path& file) {
+  pid_t process = 0;
+  for (const Stopwatch watch; process == 0 && watch.seconds() < 10.0; usleep(1000))
+    std::ifstream(file) >> process;
+  REQUIRE(process > 1);
+  // It may belong to init now, which may take a while to wait for it.
+  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+  std::string number, name, state;
+  stat >> number >> name >> state;
+  return stat && state != "Z";
+}
+
+/// Within ten seconds.
+bool ends(const fs::path& file) {
+  for (const Stopwatch watch; watch.seconds() < 10.0; usleep(1000))
+    if (!runs(file)) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("an answer comes back whole, whatever its size") {
+  for (const std::size_t size : {0u, 1u, 1000u, 8000000u}) {  // the last is longer than any pipe
+    std::string expected(size, '\0');
+    for (std::size_t i = 0; i < size; ++i) expected[i] = static_cast<char>(i * 7 % 251);
+    const ChildResult result = run_in_child(60.0, [&] { return expected; });
+    CHECK(result.end == ChildEnd::complete);
+    CHECK((result.answer == expected));
+    CHECK(no_children());
+  }
+}
+
+TEST_CASE("a child that ends without an answer has crashed, even with exit code 0") {
+  const auto end_of = [](void (*work)()) {
+    const ChildResult result = run_in_child(60.0, [&] {
+      work();
+      return std::string("lost");
+    });
+    CHECK(result.answer.empty());
+    CHECK(no_children());
+    return result.end;
+  };
+  CHECK(end_of([] { _exit(0); }) == ChildEnd::crashed);
+  CHECK(end_of([] { raise(SIGKILL); }) == ChildEnd::crashed);
+  CHECK(end_of([] { throw std::runtime_error("lost"); }) == ChildEnd::crashed);
+}
+
+TEST_CASE("a child that takes too long is killed") {
   const Stopwatch watch;
-  while (!program.has_ended() && watch.seconds() < 30.0) usleep(1000);
-  REQUIRE(program.has_ended());
-  return program.status();
+  for (const double seconds : {0.1, 0.0}) {
+    const ChildResult child = run_in_child(seconds, []() -> std::string { wait_for_ever(); });
+    CHECK(child.end == ChildEnd::out_of_time);
+    CHECK(no_children());
+  }
+  CHECK(watch.seconds() < 5.0);
+}
+
+TEST_CASE("what the parent has is not touched; the child prints nowhere and may be lost") {
+  int here = 1;
+  const ChildResult result = run_in_child(60.0, [&] {
+    std::puts("program_test: this line must not be seen");
+    std::fflush(stdout);
+    return std::to_string(++here) + (is_expendable_process() ? " expendable" : "");
+  });
+  CHECK(result.answer == "2 expendable");
+  CHECK(here == 1);
+  CHECK_FALSE(is_expendable_process());
+}
+
+TEST_CASE("the status of a child is its exit code, or its signal") {
+  ChildProcess five([] { _exit(5); }), returns([] {}), throws([] { throw 1; }),
+      killed([] { raise(SIGTERM); });
+  CHECK(status_of(five) == 5);
+  CHECK(status_of(returns) == 1);
+  CHECK(status_of(throws) == 1);
+  CHECK(status_of(killed) == 128 + SIGTERM);
+  CHECK(status_of(five) == 5);  // asked again
+  CHECK(no_children());
+}
+
+TEST_CASE("a child ends with its object, and by signals as if nobody had caught them here") {
+  signal(SIGTERM, SIG_IGN);
+  {
+    ChildProcess left(wait_for_ever), asked(wait_for_ever);
+    CHECK_FALSE(left.has_ended());
+    usleep(20000);
+    asked.send(SIGTERM);
+    CHECK(status_of(asked) == 128 + SIGTERM);
+  }
+  signal(SIGTERM, SIG_DFL);
+  CHECK(no_children());
+}
+
+TEST_CASE("a child dies with the process that made it") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "grandchild";
+  {
+    ChildProcess parent([&] {
+      ChildProcess grandchild([&] {
+        std::ofstream(file.string() + ".new") << getpid() << '\n';
+        fs::rename(file.string() + ".new", file);
+        wait_for_ever();
+      });
+      wait_for_ever();
+    });
+    CHECK(runs(file));
+  }
+  CHECK(ends(file));
+}
+
+// ---- programs whose output is read
+
+namespace {
+
+ProgramResult shell(const std::string& script, double seconds = 30.0) {
+  return run_program("sh", {"-c", script}, seconds);
 }
 
 }  // namespace
@@ -74,60 +197,47 @@ TEST_CASE("a program that takes too long is killed, even when it has closed its 
 }
 
 TEST_CASE("programs whose output is read find the C locale and nothing of gnuplot's") {
-  setenv("GNUPLOT_LIB", "somewhere", 1);
-  setenv("GNUTERM", "x11", 1);
-  setenv("BALLAST_TEST_VARIABLE", "kept", 1);
-  const ProgramResult result =
-      shell("echo \"$LC_ALL|$GNUPLOT_LIB|$GNUTERM|$BALLAST_TEST_VARIABLE\"");
-  for (const char* name : {"GNUPLOT_LIB", "GNUTERM", "BALLAST_TEST_VARIABLE"}) unsetenv(name);
-  CHECK(result.output == "C|||kept\n");
+  const EnvironmentGuard library("GNUPLOT_LIB", "somewhere"), terminal("GNUTERM", "x11"),
+      other("BALLAST_TEST_VARIABLE", "kept");
+  CHECK(shell("echo \"$LC_ALL|$GNUPLOT_LIB|$GNUTERM|$BALLAST_TEST_VARIABLE\"").output ==
+        "C|||kept\n");
 }
 
-TEST_CASE("a program beside us appends to its log") {
+// ---- programs beside this one
+
+TEST_CASE("a program beside us appends to its log, also that it cannot be started") {
   const TemporaryFolder folder;
-  const fs::path log = folder.write("log", "before\n");
-  BackgroundProgram program("/bin/sh", {"-c", "echo out; echo err >&2; exit 4"}, log);
-  CHECK(status_of(program) == 4);
+  const fs::path log = folder.write("log", "before\n"), absent = folder.path() / "absent";
+  CHECK(status_of(*start_program("/bin/sh", {"-c", "echo out; echo err >&2; exit 4"}, log)) == 4);
   CHECK(read_whole_file(log) == "before\nout\nerr\n");
-  CHECK_THROWS_AS(BackgroundProgram("/bin/sh", {}, folder.path() / "absent" / "log"), Error);
+  CHECK_THROWS_AS(start_program("/bin/sh", {}, absent / "log"), Error);
+  std::cout.flush();  // ThreadSanitizer's _exit writes what the child's copy of it holds
+  CHECK(status_of(*start_program(absent, {}, log)) == 127);
+  CHECK(last_line(log) == absent.string() + ": cannot be started: No such file or directory");
 }
 
 TEST_CASE("a program beside us ends when it is asked, and with its object") {
   const TemporaryFolder folder;
   const fs::path log = folder.path() / "log";
-  BackgroundProgram asked(
+  const auto asked = start_program(
       "/bin/sh", {"-c", "trap 'exit 9' TERM; echo ready; while :; do sleep 0.01; done"}, log);
   const Stopwatch watch;
   while (read_whole_file(log).empty() && watch.seconds() < 30.0) usleep(1000);
-  asked.stop();
-  CHECK(status_of(asked) == 9);
-  const Stopwatch since;
-  { const BackgroundProgram left("/bin/sleep", {"60"}, log); }
-  CHECK(since.seconds() < 20.0);
+  asked->send(SIGTERM);
+  CHECK(status_of(*asked) == 9);
+  start_program("/bin/sleep", {"60"}, log).reset();
+  CHECK(watch.seconds() < 50.0);
+  CHECK(no_children());
 }
 
 TEST_CASE("a program beside us has one thread of linear algebra, where nothing else is said") {
   const TemporaryFolder folder;
   const fs::path log = folder.path() / "log";
-  const char* old = getenv("OPENBLAS_NUM_THREADS");
-  const std::string kept = old ? old : "";
+  const EnvironmentGuard blas("OPENBLAS_NUM_THREADS", ""), two("OMP_NUM_THREADS", "2");
   unsetenv("OPENBLAS_NUM_THREADS");
-  setenv("OMP_NUM_THREADS", "2", 1);
-  BackgroundProgram program(
-      "/bin/sh", {"-c", "echo $OPENBLAS_NUM_THREADS $OMP_NUM_THREADS $OMP_THREAD_LIMIT"}, log);
-  CHECK(status_of(program) == 0);
-  unsetenv("OMP_NUM_THREADS");
-  if (old) setenv("OPENBLAS_NUM_THREADS", kept.c_str(), 1);
+  const char* script = "echo $OPENBLAS_NUM_THREADS $OMP_NUM_THREADS $OMP_THREAD_LIMIT";
+  CHECK(status_of(*start_program("/bin/sh", {"-c", script}, log)) == 0);
   CHECK(read_whole_file(log) == "1 2 1\n");
-}
-
-TEST_CASE("what cannot be started says so in the log") {
-  const TemporaryFolder folder;
-  const fs::path log = folder.path() / "log", absent = folder.path() / "absent";
-  std::cout.flush();  // ThreadSanitizer's _exit writes what the child's copy of it holds
-  BackgroundProgram program(absent, {}, log);
-  CHECK(status_of(program) == 127);
-  CHECK(last_line(log) == absent.string() + ": cannot be started: No such file or directory");
 }
 
 TEST_CASE("the last line of a log that says anything") {
@@ -148,26 +258,17 @@ TEST_CASE("words for a shell") {
   CHECK(shell_word("drive.frequency=5") == "drive.frequency=5");
   CHECK(shell_word("a b") == "'a b'");
   CHECK(shell_word("it's $HOME") == "'it'\\''s $HOME'");
-  CHECK(shell_word("") == "''");
   CHECK(shell_line({"a", "b c", ""}) == "a 'b c' ''");
   // A shell reads them back.
   const std::vector<std::string> words{"a b", "it's", "$HOME", "", "*", "x\ny"};
   std::string expected;
   for (const std::string& word : words) expected += word + "|";
-  CHECK(run_program("/bin/sh", {"-c", "printf '%s|' " + shell_line(words)}, 10.0).output ==
-        expected);
+  CHECK(shell("printf '%s|' " + shell_line(words)).output == expected);
 }
+
+// ---- programs that nobody trusts
 
 namespace {
-
-/// The process that wrote its number into the file runs; waits for the file.
-bool runs(const std::filesystem::path& file) {
-  pid_t process = 0;
-  for (const Stopwatch watch; process == 0 && watch.seconds() < 10.0; usleep(1000))
-    std::ifstream(file) >> process;
-  REQUIRE(process > 1);
-  return kill(process, 0) == 0;
-}
 
 SupervisedProgram program(const std::string& command) {
   return SupervisedProgram("sh -c '" + command + "'", {"sh"}, {});
@@ -181,9 +282,7 @@ TEST_CASE("A program gets its arguments, whatever is in them, and its status is 
                          {(folder.path() / "said").string(), "it's $HOME; \"x\""}, {});
   REQUIRE(told.wait(10.0));
   CHECK(told.status() == 7);
-  std::string said;
-  std::getline(std::ifstream(folder.path() / "said"), said);
-  CHECK(said == "it's $HOME; \"x\"");
+  CHECK(read_whole_file(folder.path() / "said") == "it's $HOME; \"x\"");
 }
 
 TEST_CASE("How a program ended is told with its last words") {
@@ -200,6 +299,7 @@ TEST_CASE("How a program ended is told with its last words") {
   SupervisedProgram nowhere("true", {}, {.folder = "/no/such/folder"});
   REQUIRE(nowhere.wait(10.0));
   CHECK(nowhere.status() == 127);
+  CHECK(nowhere.last_words() == "cannot be started: No such file or directory");
 }
 
 TEST_CASE("Lines go both ways") {
@@ -219,6 +319,7 @@ TEST_CASE("Lines go both ways") {
 TEST_CASE("A program that hangs or floods is given up in time, and its memory is not ours") {
   const Stopwatch watch;
   CHECK_FALSE(program("sleep 1000").wait(0.05));
+  CHECK_FALSE(program("exec <&- >&- 2>&-; sleep 1000").wait(0.05));
   CHECK_FALSE(program("exec yes").wait(0.3));
   CHECK_FALSE(program("exec yes >&2").wait(0.3));
   // One line without end: its beginning is what is heard.
@@ -243,34 +344,22 @@ TEST_CASE("What a program forks ends with it") {
     auto forking = program(forks + "; while [ ! -s " + daemon.string() + " ] || [ ! -s " +
                            child.string() + " ]; do sleep 0.01; done");
     REQUIRE(forking.wait(20.0));
-    CHECK_FALSE(runs(child));
-    CHECK_FALSE(runs(daemon));
   }
   SECTION("when it is given up") {
-    {
-      auto forking = program(forks + "; sleep 1000");
-      CHECK(runs(child));
-      CHECK(runs(daemon));
-    }
-    CHECK_FALSE(runs(child));
-    CHECK_FALSE(runs(daemon));
+    auto forking = program(forks + "; sleep 1000");
+    CHECK(runs(child));
+    CHECK(runs(daemon));
   }
-}
-
-TEST_CASE("What a program started ends when this process is killed") {
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "process";
-  {
-    const ChildProcess killed([&] {
-      auto started =
-          program("setsid sh -c \"echo \\$\\$ > " + file.string() + "; exec sleep 1000\"");
-      started.wait(1000.0);
-    });
-    CHECK(runs(file));
+  SECTION("when this process is killed") {
+    const ChildProcess killed([&] { program(forks + "; sleep 1000").wait(1000.0); });
+    CHECK(runs(child));
+    CHECK(runs(daemon));
     killed.send(SIGKILL);
+    CHECK(ends(child));
+    CHECK(ends(daemon));
   }
-  for (const Stopwatch watch; runs(file) && watch.seconds() < 10.0;) usleep(1000);
-  CHECK_FALSE(runs(file));
+  CHECK_FALSE(runs(child));
+  CHECK_FALSE(runs(daemon));
 }
 
 TEST_CASE("A program that asks for more memory than it may have does not get it") {

@@ -69,6 +69,7 @@ TEST_CASE("rows come back with their header, as often as wanted") {
   CHECK(reader.header().owner == header.owner);
   CHECK(reader.header().row_size == 3);
   CHECK(reader.safe_count() == 50);
+  CHECK(reader.row_count() == 57);
   CHECK(fs::file_size(file) == reader.header_bytes() + 57 * row_bytes);
   CHECK(count_rows(reader) == 57);
   CHECK(reader.next().empty());
@@ -137,7 +138,7 @@ TEST_CASE("no byte of the header can change unnoticed") {
     CHECK_THROWS_AS(RowReader(file), Error);
   }
   write_whole_file(file, std::string(100, 'x'));
-  CHECK(read_all(file) == "is not a log of a ballast run");
+  CHECK(read_all(file) == "is not a log of a run of this program");
   CHECK(read_all(folder.path() / "absent") == "cannot open: No such file or directory");
 }
 

@@ -16,7 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/child_process.hpp"
+#include "platform/program.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,13 +1,9 @@
 #pragma once
 // The ballast program, killed with -9 in the middle of its work.
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "platform/clock.hpp"
 
 #include "platform/program.hpp"
 
@@ -17,13 +13,8 @@ namespace ballast {
 /// when it was killed.
 inline int run_and_kill(double seconds, const std::vector<std::string>& arguments,
                         const std::filesystem::path& log) {
-  BackgroundProgram program(BALLAST_PROGRAM, arguments, log);
-  const Stopwatch watch;
-  while (!program.has_ended()) {
-    if (watch.seconds() > seconds) return -1;  // the destructor kills
-    usleep(1000);
-  }
-  return program.status();
+  const auto program = start_program(BALLAST_PROGRAM, arguments, log);
+  return program->ends_within(seconds) ? program->status() : -1;  // its destructor kills
 }
 
 }  // namespace ballast

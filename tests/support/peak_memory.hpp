@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "platform/child_process.hpp"
+#include "platform/program.hpp"
 #include "tests/catch.hpp"
 
 namespace ballast {

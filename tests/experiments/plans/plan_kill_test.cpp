@@ -75,23 +75,21 @@ TEST_CASE("children die with a plan that is killed") {
   const fs::path results = folder.path() / "results";
   const PlannedRun run = read_plan(file).runs[0];
   const fs::path log = results / "logs" / (run_key(run) + ".log");
-  Stopwatch watch;
+  const Stopwatch watch;
   {
-    BackgroundProgram planned(BALLAST_PROGRAM,
-                              {"plan", file.string(), "--output", results.string()},
-                              folder.path() / "log");
-    while (!fs::exists(log) && watch.seconds() < 60.0 && !planned.has_ended()) usleep(2000);
+    const auto planned =
+        start_program(BALLAST_PROGRAM, {"plan", file.string(), "--output", results.string()},
+                      folder.path() / "log");
+    while (!fs::exists(log) && watch.seconds() < 60.0 && !planned->has_ended()) usleep(2000);
     REQUIRE(fs::exists(log));
   }
   // the folder can be had again: nobody holds its lock
-  BackgroundProgram next(
+  const auto next = start_program(
       BALLAST_PROGRAM,
       {"run", run.scene, "--set", run.overrides[0], "--output", folder_of(results, run).string(),
        "--packing-cache", (results / "packings").string(), "--continue", "--no-report",
        "--max-seconds", "0.2"},
       folder.path() / "next.log");
-  watch.restart();
-  while (!next.has_ended() && watch.seconds() < 30.0) usleep(2000);
-  REQUIRE(next.has_ended());
-  CHECK(next.status() == 3);
+  REQUIRE(next->ends_within(30.0));
+  CHECK(next->status() == 3);
 }

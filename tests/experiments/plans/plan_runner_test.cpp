@@ -1,5 +1,6 @@
 // The engine: each run once, in any number of processes, whatever becomes of the others.
 
+#include <signal.h>
 #include <unistd.h>
 
 #include "experiments/plans/plan.hpp"
@@ -137,19 +138,19 @@ TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else runs
                                     "[[run]]\nname = \"long\"\nset = [\"scene.duration=100\", "
                                     "\"record.checkpoint_seconds=1000\"]\n");
   const fs::path run = folder_of(results, read_plan(file).runs[0]);
-  BackgroundProgram long_plan(
-      BALLAST_PROGRAM, {"plan", file.string(), "--output", results.string(), "--only", "long"},
-      log);
-  for (int k = 0; k < 6000 && !fs::exists(run / "log" / "steps.bin") && !long_plan.has_ended(); ++k)
+  const auto long_plan =
+      start_program(BALLAST_PROGRAM,
+                    {"plan", file.string(), "--output", results.string(), "--only", "long"}, log);
+  for (int k = 0; k < 6000 && !fs::exists(run / "log" / "steps.bin") && !long_plan->has_ended();
+       ++k)
     usleep(10'000);
   REQUIRE(fs::exists(run / "log" / "steps.bin"));
   check_failure(run_plan_file(file, results), ExitCode::failure,
                 {results.string(), "is running a plan there"});
   CHECK_FALSE(fs::exists(run / "checkpoint.bin"));
-  long_plan.stop();
-  for (int k = 0; k < 6000 && !long_plan.has_ended(); ++k) usleep(10'000);
-  REQUIRE(long_plan.has_ended());
-  CHECK(long_plan.status() == static_cast<int>(ExitCode::failure));
+  long_plan->send(SIGTERM);
+  REQUIRE(long_plan->ends_within(60.0));
+  CHECK(long_plan->status() == static_cast<int>(ExitCode::failure));
   CHECK_THAT(last_line(log), Catch::Contains("the same command goes on"));
   CHECK(read_checkpoint(run / "checkpoint.bin").state.step > 0);
 }

@@ -1,7 +1,7 @@
 // Siconos' own measure is asked of it as it stands, and a comparison's child calls it without
 // another process.
 
-#include "platform/child_process.hpp"
+#include "platform/program.hpp"
 #include "platform/pack.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
