@@ -16,9 +16,9 @@ Travel step_bound(const Pose& from, const Pose& to) {
 }
 
 /// The smallest upright box around the body as it is turned and placed.
-Box bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position) {
+Bounds bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position) {
   const AffineRows& vertices = shape.vertices();
-  Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+  Bounds box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
   for (int v = 0; v < vertices.count(); ++v) {
     const Vec3 p = rotation * vertices.xyz(v);
     box.low = box.low.cwiseMin(p);
@@ -119,20 +119,15 @@ void BroadPhase::find_overlaps() {
   }
 }
 
-/// Sorts the pairs by a with counting, then by b within each a.
 void BroadPhase::sort_pairs() {
+  std::sort(found_.begin(), found_.end());
+  pairs_.clear();
   std::fill(first_.begin(), first_.end(), 0);
-  for (const auto& [a, b] : found_) ++first_[a + 1];
-  for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
-  pairs_.resize(found_.size());
-  for (const auto& [a, b] : found_)
-    pairs_[first_[a]++] = {a, b, {}, -1.0, 0.0, 0.0, -1};  // first_[a] ends where a + 1 begins
-  for (size_t a = bodies_.size(); a > 0; --a) first_[a] = first_[a - 1];
-  first_[0] = 0;
-  for (size_t a = 0; a < bodies_.size(); ++a) {
-    std::sort(pairs_.begin() + first_[a], pairs_.begin() + first_[a + 1],
-              [](const CandidatePair& p, const CandidatePair& q) { return p.b < q.b; });
+  for (const auto& [a, b] : found_) {
+    pairs_.push_back({.a = a, .b = b});
+    ++first_[a + 1];
   }
+  for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
 }
 
 /// Both lists are sorted by (a, b): one merge finds the pairs that stay.

@@ -9,13 +9,8 @@
 
 namespace ballast {
 
-/// Axis-aligned, world frame [m].
-struct Box {
-  Vec3 low, high;
-};
-
-/// Tight box around a shape at a pose.
-Box bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position);
+/// Tight box around a shape at a pose, axis-aligned in the world frame [m].
+Bounds bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position);
 
 /// How far a body has moved: no point at distance r from its origin by more than shift + r turn.
 /// Added up over steps, the increase since any earlier time bounds the motion since then.
@@ -31,7 +26,7 @@ Travel step_bound(const Pose& from, const Pose& to);
 /// Two polyhedra that may touch, a < b, and the memory of their last detection.
 struct CandidatePair {
   int a, b;
-  AxisFeature axis;  ///< the one that decided last time
+  AxisFeature axis = {};  ///< the one that decided last time
   /// Proved separated while shift_a + shift_b + arm_a turn_a + arm_b turn_b + reach_a + reach_b
   /// stays below this [m].
   double apart_below = -1.0;
@@ -77,9 +72,9 @@ class BroadPhase {
   double skin_;
   std::vector<Pose> listed_pose_;  // when the list was made
   std::vector<double>
-      allowance_;           // how far a body's surface may get from there, reach included [m]
-  std::vector<Box> boxes_;  // grown by the allowance
-  std::vector<int> order_;  // polyhedra, by the low end of their boxes
+      allowance_;              // how far a body's surface may get from there, reach included [m]
+  std::vector<Bounds> boxes_;  // grown by the allowance
+  std::vector<int> order_;     // polyhedra, by the low end of their boxes
   struct Interval {
     double low, high;
   };

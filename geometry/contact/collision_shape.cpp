@@ -131,13 +131,14 @@ std::vector<int> CollisionShape::merge_coplanar(const Polyhedron& polyhedron) {
 std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron,
                                              const std::vector<int>& patch) {
   const int count = 1 + *std::max_element(patch.begin(), patch.end());
-  const SortedByKey by_patch = sorted_by_key(patch, count);
+  std::vector<std::vector<int>> by_patch(count);
+  for (size_t f = 0; f < patch.size(); ++f) by_patch[patch[f]].push_back(static_cast<int>(f));
   faces_ = AffineRows(count, -far_away);
   std::vector<int> first_corner, corners;
   // A patch of one face is that face. Of several the outline is the polygon, and
   // its area vector gives the normal.
   for (int p = 0; p < count; ++p) {
-    const std::span<const int> members = by_patch.of(p), first = polyhedron.face(members[0]);
+    const std::span<const int> members = by_patch[p], first = polyhedron.face(members[0]);
     std::vector<int> loop(first.begin(), first.end());
     Vec3 normal = polyhedron.normal(members[0]);
     if (members.size() > 1) {
@@ -215,10 +216,9 @@ double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhe
 
 void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron,
                                         const std::vector<int>& patch) {
-  const SortedByKey faces = polyhedron.faces_by_vertex();
   std::vector<int> begins{0}, all;
-  for (int v = 0; v < polyhedron.vertex_count(); ++v) {
-    for (const int f : faces.of(v)) all.push_back(patch[f]);
+  for (const std::vector<int>& faces : polyhedron.faces_by_vertex()) {
+    for (const int f : faces) all.push_back(patch[f]);
     const auto begin = all.begin() + begins.back();
     std::sort(begin, all.end());
     all.erase(std::unique(begin, all.end()), all.end());

@@ -252,10 +252,10 @@ void DetectionPart::fetch(const BroadPhase& broad_phase, size_t next) const {
 }
 
 bool DetectionPart::boxes_within_reach(const CandidatePair& pair, double alert) const {
-  const Box box_a = bounding_box(*bodies_.shape(pair.a), bodies_.rotations[pair.a],
-                                 bodies_.poses[pair.a].position);
-  const Box box_b = bounding_box(*bodies_.shape(pair.b), bodies_.rotations[pair.b],
-                                 bodies_.poses[pair.b].position);
+  const Bounds box_a = bounding_box(*bodies_.shape(pair.a), bodies_.rotations[pair.a],
+                                    bodies_.poses[pair.a].position);
+  const Bounds box_b = bounding_box(*bodies_.shape(pair.b), bodies_.rotations[pair.b],
+                                    bodies_.poses[pair.b].position);
   return (box_b.low - box_a.high).maxCoeff() <= alert &&
          (box_a.low - box_b.high).maxCoeff() <= alert;
 }

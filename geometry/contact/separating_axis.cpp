@@ -76,8 +76,8 @@ FaceSeparation face_separation(const ShapePair& pair, int own, int f, Heights& h
   return {face_separation_at(pair, own, face, low.value), low.row, low.next - low.value};
 }
 
-std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape::Edge& a,
-                                    const CollisionShape::Edge& b) {
+std::optional<EdgeSeparation> edge_facet(const PairFrame& pair, const CollisionShape::Edge& a,
+                                         const CollisionShape::Edge& b) {
   const RelativePose& b_in_a = pair.other[0];
   const Vec3 along_a = a.along, along_b = b_in_a.rotation * b.along;
   // The arc left -> right of an edge turns around `along`. The arc of a and the reversed arc of b
@@ -90,7 +90,7 @@ std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape:
                right_b = -b.right_normal.dot(along_a_in_b);
   if (!(left_b * right_b < 0.0) || !(left_a * right_b > 0.0)) return std::nullopt;
 
-  EdgeFacet facet;
+  EdgeSeparation facet;
   facet.along_b = along_b;
   facet.weight_a = std::min(std::abs(left_a), std::abs(right_a));
   facet.weight_b = std::min(std::abs(left_b), std::abs(right_b));
@@ -112,7 +112,7 @@ std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int
                                               Heights& heights) {
   const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
   const CollisionShape::Edge edge_a = a.edge(ea), edge_b = b.edge(eb);
-  std::optional<EdgeFacet> facet = edge_facet(pair, edge_a, edge_b);
+  std::optional<EdgeSeparation> facet = edge_facet(pair, edge_a, edge_b);
   if (!facet || !facet->nearly_parallel) return facet;
   // The direction of nearly parallel edges is uncertain by rounding / sine: the edges may not be
   // the supports along it. The lowest and highest vertices say how far the bodies are apart.

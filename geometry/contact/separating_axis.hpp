@@ -106,6 +106,7 @@ struct EdgeSeparation {
   Vec3 direction;  ///< unit, in a's frame, from a to b
   Vec3 along_b;    ///< b's edge in a's frame
   double cross;    ///< along_a x along_b = cross * direction
+  bool nearly_parallel = false;
   double weight_a,
       weight_b;  ///< for CollisionShape::Edge::drop: the smaller |normal of a face beside the edge
                  ///< . other edge|
@@ -133,11 +134,8 @@ bool is_proved_best(const PairFrame& pair, double face_isolation, const Separati
 
 /// The facet of two edges, or nothing. Of nearly parallel ones direction and separation are left
 /// out: their shapes decide.
-struct EdgeFacet : EdgeSeparation {
-  bool nearly_parallel = false;
-};
-std::optional<EdgeFacet> edge_facet(const PairFrame& pair, const CollisionShape::Edge& a,
-                                    const CollisionShape::Edge& b);
+std::optional<EdgeSeparation> edge_facet(const PairFrame& pair, const CollisionShape::Edge& a,
+                                         const CollisionShape::Edge& b);
 SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
                          const CollisionShape::Edge& a, const CollisionShape::Edge& b,
                          const EdgeSeparation& found);

@@ -148,7 +148,7 @@ TouchingPair::Look TouchingPair::look_at(const Edges& edges, const PairFrame& pa
                                          int max_points, ContactManifold& manifold,
                                          SeparatingAxis& axis,
                                          std::span<const ManifoldPoint>& points) const {
-  const std::optional<EdgeFacet> facet = edge_facet(pair, edges.a, edges.b);
+  const std::optional<EdgeSeparation> facet = edge_facet(pair, edges.a, edges.b);
   if (!facet || facet->nearly_parallel) return Look::undecided;
   axis.separation = facet->separation;
   if (facet->separation > alert) return Look::apart;

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <new>
-#include <sstream>
+#include <memory>
 #include <string>
 #include <utility>
+
+#include "platform/text.hpp"
 
 namespace ballast {
 
@@ -42,40 +42,17 @@ constexpr Tolerance exact_tolerance{1e-10, 4e-9};
 /// or gives up: they are resolved instead.
 constexpr Tolerance finer_tolerance{1e-14, 4e-9};
 
-/// A message stream in memory: qhull writes its complaints there instead of to stderr.
-class Messages {
- public:
-  Messages() : file_(open_memstream(&text_, &length_)) {
-    if (!file_) throw std::bad_alloc();
-  }
-  ~Messages() {
-    std::fclose(file_);
-    std::free(text_);
-  }
-  Messages(const Messages&) = delete;
-  Messages& operator=(const Messages&) = delete;
-  FILE* file() { return file_; }
-
- private:
-  char* text_ = nullptr;
-  size_t length_ = 0;
-  FILE* file_;
-};
-
 /// One qhull run and its memory.
 class QhullRun {
  public:
   QhullRun(std::vector<double>& coordinates, double merge) {
-    qh_zero(&qh_, messages_.file());
-    std::ostringstream command;
-    command << "qhull Pp E" << merge;  // Pp: no warnings about precision
-    std::string text = command.str();  // qhull wants it writable
-    const int code =
-        qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False,
-                     text.data(), nullptr, messages_.file());
+    qh_zero(&qh_, nowhere_.get());
+    // Pp: no warnings about precision. qhull wants the text writable.
+    std::string text = printed("qhull Pp E%g", merge);
+    const int code = qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3),
+                                  coordinates.data(), False, text.data(), nullptr, nowhere_.get());
     if (code != qh_ERRnone) {
       release();
-      // What qhull says is written for its own users.
       throw InvalidPolyhedron("their hull is thinner than its numbers are exact");
     }
   }
@@ -131,7 +108,8 @@ class QhullRun {
     return chain;
   }
 
-  Messages messages_;
+  /// qhull's complaints, which are written for its own users.
+  const std::unique_ptr<FILE, int (*)(FILE*)> nowhere_{std::fopen("/dev/null", "w"), std::fclose};
   qhT qh_;
 };
 

@@ -36,16 +36,4 @@ std::vector<int> first_close(std::span<const Vec3> points, double reach) {
   return first;
 }
 
-SortedByKey sorted_by_key(std::span<const int> keys, int key_count) {
-  SortedByKey sorted;
-  // Counted and summed up: where each key's positions begin.
-  sorted.begin.assign(static_cast<size_t>(key_count) + 1, 0);
-  for (const int key : keys) ++sorted.begin[key + 1];
-  for (int k = 0; k < key_count; ++k) sorted.begin[k + 1] += sorted.begin[k];
-  std::vector<int> next(sorted.begin.begin(), sorted.begin.end() - 1);
-  sorted.order.resize(keys.size());
-  for (size_t i = 0; i < keys.size(); ++i) sorted.order[next[keys[i]]++] = static_cast<int>(i);
-  return sorted;
-}
-
 }  // namespace ballast

@@ -1,5 +1,5 @@
 #pragma once
-// Sets of points, and things put in the order of small whole numbers.
+// Sets of points.
 
 #include <cstddef>
 #include <span>
@@ -39,18 +39,5 @@ inline Vec3 area_vector(std::span<const int> loop, std::span<const Vec3> points)
 /// For each point the smallest index of a point at most `reach` from it: its own where none before
 /// it is that close. O(n log n) for sets with few points that are close or equal.
 std::vector<int> first_close(std::span<const Vec3> points, double reach);
-
-/// Positions of keys, by key: those of key k are order[begin[k]] to before order[begin[k + 1]],
-/// ascending.
-struct SortedByKey {
-  std::vector<int> begin, order;
-
-  std::span<const int> of(int key) const {
-    return {order.data() + begin[key], static_cast<size_t>(begin[key + 1] - begin[key])};
-  }
-};
-
-/// In linear time. `keys`: each from 0 to before `key_count`.
-SortedByKey sorted_by_key(std::span<const int> keys, int key_count);
 
 }  // namespace ballast

@@ -144,27 +144,18 @@ void Polyhedron::join_faces() {
     bool downwards;
     int face, slot;  // slot: position in face_vertices_
   };
-  std::vector<int> low_end, high_end, face_of;  // by slot
+  std::vector<HalfEdge> halves;
   for (int f = 0; f < face_count(); ++f) {
     for (int k = face_begin_[f]; k < face_begin_[f + 1]; ++k) {
       const int a = face_vertices_[k],
                 b = face_vertices_[k + 1 < face_begin_[f + 1] ? k + 1 : face_begin_[f]];
-      low_end.push_back(std::min(a, b));
-      high_end.push_back(std::max(a, b));
-      face_of.push_back(f);
+      halves.push_back({std::min(a, b), std::max(a, b), b < a, f, k});
     }
   }
-  // By their smaller vertex in linear time; the few of one vertex are sorted.
-  std::vector<HalfEdge> halves;
-  const SortedByKey by_low = sorted_by_key(low_end, vertex_count());
-  for (int low = 0; low < vertex_count(); ++low) {
-    for (const int k : by_low.of(low))
-      halves.push_back({low, high_end[k], face_vertices_[k] != low, face_of[k], k});
-    std::sort(
-        halves.begin() + by_low.begin[low], halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
-          return std::tie(a.high, a.downwards, a.slot) < std::tie(b.high, b.downwards, b.slot);
-        });
-  }
+  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return std::tie(a.low, a.high, a.downwards, a.slot) <
+           std::tie(b.low, b.high, b.downwards, b.slot);
+  });
   // Sorted, the half-edges of one edge stand side by side, the upward one first.
   face_neighbours_.assign(face_vertices_.size(), -1);
   for (size_t i = 0; i < halves.size();) {
@@ -208,13 +199,11 @@ std::vector<Polyhedron::Edge> Polyhedron::edges() const {
   return edges;
 }
 
-SortedByKey Polyhedron::faces_by_vertex() const {
-  SortedByKey by_vertex = sorted_by_key(face_vertices_, vertex_count());
-  std::vector<int> face_of(face_vertices_.size());
+std::vector<std::vector<int>> Polyhedron::faces_by_vertex() const {
+  std::vector<std::vector<int>> faces(vertices_.size());
   for (int f = 0; f < face_count(); ++f)
-    std::fill(face_of.begin() + face_begin_[f], face_of.begin() + face_begin_[f + 1], f);
-  for (int& slot : by_vertex.order) slot = face_of[slot];
-  return by_vertex;
+    for (const int v : face(f)) faces[v].push_back(f);
+  return faces;
 }
 
 /// Faces connected across edges and Euler's V - E + F = 2: together they leave only the sphere, as

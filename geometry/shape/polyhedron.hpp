@@ -78,7 +78,7 @@ class Polyhedron {
   /// Ordered by (tail, head), tail < head; made anew at every call.
   std::vector<Edge> edges() const;
   /// Of each vertex the faces that meet there, ascending; made anew at every call.
-  SortedByKey faces_by_vertex() const;
+  std::vector<std::vector<int>> faces_by_vertex() const;
 
   /// Largest distance origin-vertex, and the radius of the largest ball around the origin inside
   /// the solid (negative when the origin lies outside) [m].

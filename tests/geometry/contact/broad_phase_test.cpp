@@ -41,8 +41,8 @@ struct World {
     for (int a = 0; a < count; ++a) {
       for (int b = a + 1; b < count; ++b) {
         if (!bodies[a].shape || !bodies[b].shape || (bodies[a].fixed && bodies[b].fixed)) continue;
-        const Box p = bounding_box(*bodies[a].shape, rotation[a], poses[a].position);
-        const Box q = bounding_box(*bodies[b].shape, rotation[b], poses[b].position);
+        const Bounds p = bounding_box(*bodies[a].shape, rotation[a], poses[a].position);
+        const Bounds q = bounding_box(*bodies[b].shape, rotation[b], poses[b].position);
         const double apart = std::max((p.low - q.high).maxCoeff(), (q.low - p.high).maxCoeff());
         if (apart <= reach[a] + reach[b]) result.emplace(a, b);
       }
@@ -87,7 +87,7 @@ TEST_CASE("bounding boxes hold every vertex and touch one on each side") {
   for (const CollisionShape& shape : collision_pool()) {
     const Mat3 rotation = random_rotation(random).toRotationMatrix();
     const Vec3 position = random_direction(random);
-    const Box box = bounding_box(shape, rotation, position);
+    const Bounds box = bounding_box(shape, rotation, position);
     Vec3 low = Vec3::Constant(1e9), high = -low;
     for (int v = 0; v < shape.vertices().count(); ++v) {
       low = low.cwiseMin(position + rotation * shape.vertices().xyz(v));

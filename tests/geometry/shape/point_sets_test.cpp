@@ -33,14 +33,3 @@ TEST_CASE("the first close point is the one that a look at all pairs finds") {
   CHECK(found > 3000);
   CHECK(first_close({}, 1.0).empty());
 }
-
-TEST_CASE("positions come by key, those of one key in their order") {
-  const std::vector<int> keys{2, 0, 3, 2, 0, 2};
-  const SortedByKey sorted = sorted_by_key(keys, 5);
-  CHECK(sorted.order == std::vector{1, 4, 0, 3, 5, 2});
-  CHECK(sorted.begin == std::vector{0, 2, 2, 5, 6, 6});
-  CHECK(sorted.of(2).size() == 3);
-  CHECK(sorted.of(2)[1] == 3);
-  CHECK(sorted.of(1).empty());
-  CHECK(sorted_by_key({}, 2).begin == std::vector{0, 0, 0});
-}

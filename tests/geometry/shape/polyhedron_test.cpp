@@ -44,9 +44,9 @@ void check_topology(const Polyhedron& p) {
       CHECK(loop[(at + 1) % loop.size()] == to);
     }
   }
-  const SortedByKey by_vertex = p.faces_by_vertex();
+  const std::vector<std::vector<int>> by_vertex = p.faces_by_vertex();
   for (int v = 0; v < p.vertex_count(); ++v) {
-    const auto faces = by_vertex.of(v);
+    const std::vector<int>& faces = by_vertex[v];
     CHECK(std::vector<int>(faces.begin(), faces.end()) ==
           std::vector<int>(touching[v].begin(), touching[v].end()));
   }
