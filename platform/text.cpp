@@ -55,12 +55,9 @@ bool is_plain(std::string_view text, std::string_view also) {
   });
 }
 
-namespace {
-
-/// Levenshtein's distance: letters to insert, to leave out and to replace.
 size_t edit_distance(std::string_view a, std::string_view b) {
-  // row[j] is the distance of the first i letters of a to the first j of b: one row of the table of
-  // distances between prefixes.
+  // One row of the table of distances between prefixes of a and of b.
+  // row[j] is the distance of the first i letters of a to the first j of b (Levenshtein).
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
   for (size_t i = 0; i < a.size(); ++i) {
@@ -72,19 +69,6 @@ size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
-}
-
-}  // namespace
-
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& words) {
-  std::string meant;
-  size_t least = std::max<size_t>(word.size() / 3, 2) + 1;
-  for (const std::string& candidate : words)
-    if (const size_t distance = edit_distance(word, candidate); distance < least) {
-      least = distance;
-      meant = ", did you mean \"" + candidate + "\"?";
-    }
-  return meant;
 }
 
 std::optional<double> parsed_number(std::string_view text) {

@@ -20,6 +20,9 @@ void add_to_list(std::string& list, std::string_view item);
 /// file may hold any.
 std::string one_line(std::string_view text, char shown);
 
+/// Levenshtein's distance: letters to insert, to leave out and to replace.
+size_t edit_distance(std::string_view a, std::string_view b);
+
 /// The words with ", " between them.
 template <typename Words>
 std::string joined(const Words& words) {
@@ -55,9 +58,26 @@ std::optional<Number> parsed(std::string_view text) {
   return value;
 }
 
-/// ", did you mean "incline"?" for the one of `words` that `word` was probably meant to be: at most
-/// two letters, or a third of them, are missing, too many or others. Empty where none is that near.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& words);
+/// The one of `words` that `word` was probably meant to be: at most two letters, or a third of
+/// them, are missing, too many or others. Empty where none is that near. `Words`: of texts.
+template <typename Words>
+std::string nearest_word(std::string_view word, const Words& words) {
+  std::string nearest;
+  size_t least = word.size() / 3 > 2 ? word.size() / 3 + 1 : 3;
+  for (const std::string_view candidate : words)
+    if (const size_t distance = edit_distance(word, candidate); distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  return nearest;
+}
+
+/// ", did you mean "incline"?" for the nearest of `words`; empty where none is near.
+template <typename Words>
+std::string did_you_mean(std::string_view word, const Words& words) {
+  const std::string nearest = nearest_word(word, words);
+  return nearest.empty() ? nearest : ", did you mean \"" + nearest + "\"?";
+}
 
 /// The number that all of `text` is, blanks around it apart; nothing when it is none. "nan" and
 /// "inf" are numbers.

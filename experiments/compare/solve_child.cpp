@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "platform/program.hpp"
 #include "platform/clock.hpp"
 #include "platform/pack.hpp"
+#include "platform/program.hpp"
 
 namespace ballast {
 namespace {

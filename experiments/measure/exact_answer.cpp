@@ -1,9 +1,9 @@
 #include "experiments/measure/exact_answer.hpp"
 
 #include "platform/atomic_file.hpp"
-#include "platform/program.hpp"
 #include "platform/error.hpp"
 #include "platform/pack.hpp"
+#include "platform/program.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "platform/child_process.hpp"
 #include "platform/pack.hpp"
+#include "platform/program.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "solvers/seam/iteration.hpp"

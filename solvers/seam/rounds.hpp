@@ -45,7 +45,7 @@ struct RoundAnswer {
                           ///< counts as standing still
 };
 
-/// `call` in a child process (platform/child_process.hpp), as it may crash, hang or leak; here
+/// `call` in a child process (platform/program.hpp), as it may crash, hang or leak; here
 /// where this process is a comparison's child, which may be lost and stays warm. Of the answer x,
 /// iterations and seconds come back. False: there is none.
 bool answer_apart(double max_seconds, const std::function<bool(RoundAnswer&)>& call,

@@ -171,6 +171,7 @@ TEST_CASE("the whole scene moved rigidly has its contacts moved with it") {
       poses.push_back(next);
     }
     detector.detect(packing.poses, packing.reach, contacts);
+    check_list(contacts, packing);
     other.detect(poses, packing.reach, turned);
     REQUIRE(contacts.size() == turned.size());
     for (size_t i = 0; i < contacts.size(); ++i) {

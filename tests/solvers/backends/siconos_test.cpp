@@ -1,8 +1,8 @@
 // Siconos' own measure is asked of it as it stands, and a comparison's child calls it without
 // another process.
 
-#include "platform/program.hpp"
 #include "platform/pack.hpp"
+#include "platform/program.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/pile_problems.hpp"
