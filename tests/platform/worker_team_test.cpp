@@ -96,8 +96,6 @@ TEST_CASE("what a member that is held up has not begun is done by the others") {
   }
 }
 
-TEST_CASE("there is a core for this program") { CHECK(available_cores() >= 1); }
-
 TEST_CASE("a team grows, shrinks and sleeps between two tasks") {
   WorkerTeam team;
   for (const int threads : {4, 2, 2, 1, 3}) {

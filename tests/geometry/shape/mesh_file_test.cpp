@@ -78,69 +78,62 @@ TEST_CASE("binary STL in single precision, also when its header says solid") {
 TEST_CASE("OBJ as other programs write it") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "cube.obj";
-  const std::set<std::vector<std::array<double, 3>>> cube = [&] {
-    save(file, cube_obj);
-    return solid(read_mesh(file));
-  }();
+  save(file, cube_obj);
+  const std::set<std::vector<std::array<double, 3>>> cube = solid(read_mesh(file));
   REQUIRE(cube.size() == 6);
-  std::string text = cube_obj;
-  SECTION("comments, groups, materials, blank lines") {
-    text = "# made by\nmtllib a.mtl\no cube\n\ng side\nusemtl stone\ns off\n" +
-           with(text, "f 1 5 7 3", "f 1 5 7 3 # left");
+  const std::string& text = cube_obj;
+  std::string dos;
+  for (const char c : text) dos += c == '\n' ? "\r\n" : std::string(1, c);
+  for (const std::string& written : {
+           // comments, groups, materials, blank lines
+           "# made by\nmtllib a.mtl\no cube\n\ng side\nusemtl stone\ns off\n" +
+               with(text, "f 1 5 7 3", "f 1 5 7 3 # left"),
+           // texture and normal indices
+           "vt 0 0\nvn 0 0 1\n" + with(with(with(text, "1 5 7 3", "1/1 5/1 7/1 3/1"), "2 4 8 6",
+                                            "2//1 4//1 8//1 6//1"),
+                                       "3 7 8 4", "3/1/1 7/1/1 8/1/1 4/1/1"),
+           // negative indices
+           with(with(text, "1 5 7 3", "-8 -4 -2 -6"), "5 6 8 7", "5 -3 8 -2"),
+           // DOS line ends and tabs
+           with(dos, "v 1 0 0", "v\t1  0\t0 "),
+           // exponents, signs, weights, colours
+           with(with(text, "v 1 0 0", "v +1.0e0 -0 0.0 1.0"), "v 0 1 0", "v 0 10E-1 0 0.5 0.5 0.5"),
+           // faces before vertices
+           text.substr(text.find('f')) + text.substr(0, text.find('f')),
+           // no newline at the end
+           text.substr(0, text.size() - 1),
+           // triangles: coplanar neighbours become one face again
+           with(text, "f 1 5 7 3", "f 1 5 7\nf 1 7 3"),
+       }) {
+    CAPTURE(written);
+    save(file, written);
+    CHECK(solid(read_mesh(file)) == cube);
   }
-  SECTION("texture and normal indices") {
-    text = "vt 0 0\nvn 0 0 1\n" +
-           with(with(with(text, "1 5 7 3", "1/1 5/1 7/1 3/1"), "2 4 8 6", "2//1 4//1 8//1 6//1"),
-                "3 7 8 4", "3/1/1 7/1/1 8/1/1 4/1/1");
-  }
-  SECTION("negative indices") {
-    text = with(with(text, "1 5 7 3", "-8 -4 -2 -6"), "5 6 8 7", "5 -3 8 -2");
-  }
-  SECTION("DOS line ends and tabs") {
-    std::string dos;
-    for (const char c : text) dos += c == '\n' ? "\r\n" : std::string(1, c);
-    text = with(dos, "v 1 0 0", "v\t1  0\t0 ");
-  }
-  SECTION("exponents, signs, weights, colours") {
-    text = with(with(text, "v 1 0 0", "v +1.0e0 -0 0.0 1.0"), "v 0 1 0", "v 0 10E-1 0 0.5 0.5 0.5");
-  }
-  SECTION("faces before vertices") {
-    text = text.substr(text.find('f')) + text.substr(0, text.find('f'));
-  }
-  SECTION("no newline at the end") { text.pop_back(); }
-  SECTION("triangles: coplanar neighbours become one face again") {
-    text = with(text, "f 1 5 7 3", "f 1 5 7\nf 1 7 3");
-  }
-  save(file, text);
-  CHECK(solid(read_mesh(file)) == cube);
 }
 
 TEST_CASE("text STL as other programs write it") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "box.stl";
-  const Polyhedron box = make_box({1, 2, 3});
-  write_mesh(file, box);
-  std::string text = load(file);
-  SECTION("capitals") {
-    for (char& c : text)
-      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  write_mesh(file, make_box({1, 2, 3}));
+  const std::string text = load(file);
+  std::string capitals = text;
+  for (char& c : capitals)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  for (const std::string& written : {
+           capitals,
+           // a name of several words, and none
+           with(text, "solid ballast", "  solid facet of a crusher"),
+           with(with(text, "solid ballast", "solid"), "endsolid ballast", "endsolid"),
+           // normals that are no numbers, and corners that agree to seven digits only
+           with(text, "normal -1 0 0", "normal nan -nan(ind) x"),
+           with(text, "vertex -0.5 -1 -1.5", "vertex -0.5 -1 -1.4999999"),
+       }) {
+    CAPTURE(written);
+    save(file, written);
+    const Polyhedron q = read_mesh(file);
+    CHECK(q.vertex_count() == 8);
+    CHECK(mass_properties(q).volume == Approx(6.0).epsilon(1e-6));
   }
-  SECTION("a name of several words") {
-    text = with(text, "solid ballast", "  solid facet of a crusher");
-  }
-  SECTION("no name") {
-    text = with(with(text, "solid ballast", "solid"), "endsolid ballast", "endsolid");
-  }
-  SECTION("normals that are no numbers") {
-    text = with(text, "normal -1 0 0", "normal nan -nan(ind) x");
-  }
-  SECTION("corners that agree to seven digits only") {
-    text = with(text, "vertex -0.5 -1 -1.5", "vertex -0.5 -1 -1.4999999");
-  }
-  save(file, text);
-  const Polyhedron q = read_mesh(file);
-  CHECK(q.vertex_count() == 8);
-  CHECK(mass_properties(q).volume == Approx(6.0).epsilon(1e-6));
 }
 
 TEST_CASE("the scale multiplies coordinates") {

@@ -45,11 +45,8 @@ void check_topology(const Polyhedron& p) {
     }
   }
   const std::vector<std::vector<int>> by_vertex = p.faces_by_vertex();
-  for (int v = 0; v < p.vertex_count(); ++v) {
-    const std::vector<int>& faces = by_vertex[v];
-    CHECK(std::vector<int>(faces.begin(), faces.end()) ==
-          std::vector<int>(touching[v].begin(), touching[v].end()));
-  }
+  for (int v = 0; v < p.vertex_count(); ++v)
+    CHECK(by_vertex[v] == std::vector<int>(touching[v].begin(), touching[v].end()));
 }
 
 }  // namespace
@@ -148,61 +145,40 @@ void append(std::vector<Vec3>& vertices, Faces& faces, const Polyhedron& other, 
 
 TEST_CASE("defects are named") {
   REQUIRE(complaint(corner_points, corner_faces) == "");
-  std::vector<Vec3> v = corner_points, box = vertices_of(make_box({2, 2, 2}));
-  Faces f = corner_faces, box_faces = loops_of(make_box({2, 2, 2}));
-  std::string expected;
-  SECTION("NaN") {
-    v[2].y() = std::nan("");
-    expected = "vertex 2 has a coordinate that is NaN";
-  }
-  SECTION("infinity") {
-    v[3].z() = std::numeric_limits<double>::infinity();
-    expected = "vertex 3 has a coordinate";
-  }
-  SECTION("overflow") {
-    v[3].z() = 1e200;
-    expected = "too large";
-  }
-  SECTION("three vertices") {
+  const std::vector<Vec3> box = vertices_of(make_box({2, 2, 2}));
+  const Faces box_faces = loops_of(make_box({2, 2, 2}));
+  std::vector<Vec3> v;
+  Faces f;
+  const auto refuses = [&](const std::string& expected, const auto& change) {
+    v = corner_points;
+    f = corner_faces;
+    change();
+    const std::string said = complaint(v, f);
+    CAPTURE(said);
+    CHECK(contains(said, expected));
+  };
+  refuses("vertex 2 has a coordinate that is NaN", [&] { v[2].y() = std::nan(""); });
+  refuses("vertex 3 has a coordinate", [&] { v[3].z() = std::numeric_limits<double>::infinity(); });
+  refuses("too large", [&] { v[3].z() = 1e200; });
+  refuses("at least 4 vertices, got 3", [&] {
     v.pop_back();
     f = {{0, 1, 2}, {2, 1, 0}};
-    expected = "at least 4 vertices, got 3";
-  }
-  SECTION("one point") {
-    v.assign(4, Vec3(1, 1, 1));
-    expected = "all vertices coincide";
-  }
-  SECTION("index too large") {
-    f[1][1] = 4;
-    expected = "face 1 names vertex 4 of 4";
-  }
-  SECTION("index negative") {
-    f[2][0] = -1;
-    expected = "face 2 names vertex -1";
-  }
-  SECTION("no faces") {
-    f.clear();
-    expected = "vertex 0 belongs to no face";
-  }
-  SECTION("vertices coincide") {
+  });
+  refuses("all vertices coincide", [&] { v.assign(4, Vec3(1, 1, 1)); });
+  refuses("face 1 names vertex 4 of 4", [&] { f[1][1] = 4; });
+  refuses("face 2 names vertex -1", [&] { f[2][0] = -1; });
+  refuses("vertex 0 belongs to no face", [&] { f.clear(); });
+  refuses("vertices 3 and 4 coincide", [&] {
     v.push_back(v[3] + Vec3(1e-10, 0, 0));
     f = {{0, 2, 1}, {0, 1, 3}, {1, 2, 4}, {1, 4, 3}, {0, 3, 4, 2}};
-    expected = "vertices 3 and 4 coincide";
-  }
-  SECTION("needle") {
-    v[2] = {2, 1e-12, 0};
-    expected = "face 0 has no area";
-  }
-  SECTION("two pieces") {
-    append(v, f, Polyhedron(v, f), {3, 0, 0});
-    expected = "several pieces: face 4 ";
-  }
-  SECTION("two tetrahedra at one vertex") {
+  });
+  refuses("face 0 has no area", [&] { v[2] = {2, 1e-12, 0}; });
+  refuses("several pieces: face 4 ", [&] { append(v, f, Polyhedron(v, f), {3, 0, 0}); });
+  refuses("several pieces", [&] {
     v = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
     f = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 4, 5}, {0, 6, 4}, {4, 6, 5}, {0, 5, 6}};
-    expected = "several pieces";
-  }
-  SECTION("a ring") {
+  });
+  refuses("vertices - edges + faces = 0 instead of 2", [&] {
     // three bars around a triangular hole, their outer and inner corners in two planes
     v.clear();
     f.clear();
@@ -218,36 +194,29 @@ TEST_CASE("defects are named") {
                          {6 + k, 9 + k, 9 + n, 6 + n},
                          {k, n, 3 + n, 3 + k}});
     }
-    expected = "vertices - edges + faces = 0 instead of 2";
-  }
-  SECTION("dent") {
+  });
+  refuses("not convex: vertex", [&] {
     v = box;
     f = box_faces;
     v.push_back({0, 0, 0.5});  // below the middle of the top
     f.pop_back();
     f.insert(f.end(), {{4, 5, 8}, {5, 7, 8}, {7, 6, 8}, {6, 4, 8}});
-    expected = "not convex: vertex";
-  }
-  SECTION("straight corner") {
+  });
+  refuses("face 2 is not strictly convex at vertex 8", [&] {
     v = box;
     f = box_faces;
     v.push_back({0, -1, -1});  // the middle of the edge 0-1
     f[2] = {0, 8, 1, 5, 4};
     f[4] = {0, 2, 3, 1, 8};
-    expected = "face 2 is not strictly convex at vertex 8";
-  }
-  SECTION("star-shaped face") {
+  });
+  refuses("winds around itself", [&] {
     v.clear();
     for (const double z : {-1.0, 1.0})
       for (int k = 0; k < 5; ++k)
         v.push_back({std::cos(1.2566370614359172 * k), std::sin(1.2566370614359172 * k), z});
     f = {{0, 3, 1, 4, 2}, {5, 7, 9, 6, 8}};
     for (int k = 0; k < 5; ++k) f.push_back({k, (k + 2) % 5, 5 + (k + 2) % 5, 5 + k});
-    expected = "winds around itself";
-  }
-  const std::string said = complaint(v, f);
-  CAPTURE(said);
-  CHECK(contains(said, expected));
+  });
 }
 
 TEST_CASE("dents count relative to the size, wherever the mesh lies") {
