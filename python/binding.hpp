@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "problems/files/stored_problem.hpp"
+#include "problems/files/fclib_file.hpp"
 
 namespace ballast::python {
 

@@ -52,8 +52,8 @@ std::vector<double> frictions(const Doubles& mu) { return {mu.data(), mu.data() 
 
 FrictionProblem from_delassus(const py::tuple& w, const Doubles& q, const Doubles& mu) {
   const int rows = 3 * static_cast<int>(mu.size());
-  FrictionProblem problem = to_friction_problem(LocalProblem{
-      matrix_of<SparseRows>(w, rows, rows, "W"), vector_of(q, rows, "q"), frictions(mu)});
+  FrictionProblem problem = local_problem(matrix_of<SparseRows>(w, rows, rows, "W"),
+                                          vector_of(q, rows, "q"), frictions(mu));
   problem.validate();
   return problem;
 }
@@ -96,7 +96,7 @@ py::tuple owned_parts(Matrix matrix) {
 py::tuple delassus(const py::object& self) {
   const auto& problem = self.cast<const FrictionProblem&>();
   const bool is_stored = problem.has_delassus && problem.row_count() == 3 * problem.contact_count();
-  if (!is_stored) return owned_parts(condensed(problem).w);
+  if (!is_stored) return owned_parts(condensed(problem).delassus.w);
   const py::tuple parts = parts_of(problem.delassus.w, self);
   for (const py::handle& part : parts) part.attr("setflags")(py::arg("write") = false);
   return parts;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/mechanics/solid_fraction.hpp"
+#include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
 

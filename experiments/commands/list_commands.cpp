@@ -55,7 +55,7 @@ void print_scene(const std::string& name, const std::vector<std::string>& overri
                  bool resolved) {
   const std::filesystem::path file = find_scene(name);
   if (resolved || !overrides.empty()) {
-    std::cout << without_name(resolved_scene_text(file, overrides), file.stem().string());
+    std::cout << without_name(resolve_scene(file, overrides).text, file.stem().string());
     return;
   }
   std::cout << std::ifstream(file).rdbuf();

@@ -10,8 +10,7 @@
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/algebra/known_solutions.hpp"
-#include "problems/algebra/pile_problems.hpp"
-#include "problems/algebra/stress_problems.hpp"
+#include "problems/algebra/made_problems.hpp"
 
 namespace ballast {
 namespace {
@@ -137,14 +136,13 @@ void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
   add_seeded(word, settings, pile_case, cases);
 }
 
-/// Every small problem that is valid; broken ones are for tests.
+/// Every small problem.
 void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   if (word.what() != "all") word.fail("expected stress:all");
   word.finish();
   for (const StressProblem& stress : stress_problems()) {
-    if (!stress.refused.empty()) continue;
     // the manufactured ones have no gravity
-    const double scale = stress.family == "manufactured" ? 0.0 : stress_gravity_step;
+    const double scale = stress.family == "manufactured" ? 0.0 : made_gravity_step;
     const auto load = [problem = stress.problem, scale] { return load_case(problem, scale); };
     cases.push_back({"stress-" + stress.name, "stress " + stress.family, load, word.text()});
   }

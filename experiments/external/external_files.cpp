@@ -7,7 +7,6 @@
 #include "platform/hdf5_file.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
-#include "problems/files/stored_problem.hpp"
 
 namespace ballast {
 namespace {

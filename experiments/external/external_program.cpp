@@ -213,7 +213,7 @@ std::vector<ExternalCommand> read_list(const fs::path& file) {
     ExternalCommand command;
     command.name = entry.text("name");
     command.command = entry.text("command");
-    entry.read("serve", {}, false, &command.is_served);
+    entry.read("serve", &command.is_served);
     command.folder = folder.string();
     entry.finish();
     commands.push_back(std::move(command));

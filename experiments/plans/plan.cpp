@@ -70,7 +70,6 @@ std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern) {
 
 namespace {
 
-constexpr size_t any_length = std::string::npos;
 // What a plan may grow to: every run is resolved when the plan is read.
 constexpr size_t most_runs = 10'000;
 constexpr size_t most_text = 32 << 20;  // bytes of all names and overrides
@@ -104,9 +103,9 @@ struct Axis {
 std::vector<std::string> value_texts(const toml::node& node) {
   std::vector<std::string> texts;
   if (const toml::array* array = node.as_array())
-    for (const toml::node& value : *array) texts.push_back(toml_value_text(value, any_length));
+    for (const toml::node& value : *array) texts.push_back(toml_value_text(value));
   else
-    texts.push_back(toml_value_text(node, any_length));
+    texts.push_back(toml_value_text(node));
   return texts;
 }
 

@@ -32,7 +32,7 @@ class StepCapture {
  public:
   StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g);
 
-  /// After a step. Throws ProblemFileError, Error.
+  /// After a step. Throws Error.
   void observe(const TimeStepper& stepper, const MotionState& state, const StepRecord& record);
 
  private:

@@ -6,7 +6,7 @@
 
 #include "experiments/box/packing.hpp"
 #include "experiments/run/manifest.hpp"
-#include "problems/mechanics/solid_fraction.hpp"
+#include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
 

@@ -32,9 +32,9 @@ void ImpactLaw::split_bias(const FrictionProblem& problem, std::span<const doubl
 
 void ImpactLaw::set_bias(FrictionProblem& problem, std::span<const double> rebound) const {
   problem.dynamics.bias = newton_;
-  for (int i = 0; i < islands_.count(); ++i) {
+  for (size_t i = 0; i < islands_.size(); ++i) {
     if (scale_[i] == 1.0) continue;
-    for (const int c : islands_.contacts(i)) {
+    for (const int c : islands_[i]) {
       const int row = problem.row_begin[c];
       problem.dynamics.bias[row] = walls_[row] + scale_[i] * rebound[c];
     }
@@ -51,13 +51,14 @@ void ImpactLaw::measure(FrictionProblem& problem, const SolverRun& run, const Ei
 }
 
 /// The factor by which the island's scale must fall; 1 where it takes enough energy.
-double ImpactLaw::lowered_to(const FrictionProblem& problem, int island) const {
+double ImpactLaw::lowered_to(const FrictionProblem& problem,
+                             const std::vector<int>& contacts) const {
   // L_0 and L, and along r_0 + t (r - r_0): L(t) = L_0 - slope t - curvature t^2 / 2.
   double inelastic = 0.0, rebounding = 0.0, slope = 0.0, curvature = 0.0, impulse = 0.0;
   int rows = 0;
   // With delta = r - r_0 and W symmetric, r_0 . W delta = delta . (u_0 - u_f): that is why the
   // slope needs delta . u_0 alone, and the curvature delta . (u - u_0).
-  for_rows(problem, islands_.contacts(island), [&](int row) {
+  for_rows(problem, contacts, [&](int row) {
     const double r0 = inelastic_.r[row], r1 = rebounding_.r[row];
     const double u0 = inelastic_.u[row], u1 = rebounding_.u[row];
     inelastic -= 0.5 * r0 * (u0 + u_free_[row]);
@@ -81,9 +82,9 @@ double ImpactLaw::lowered_to(const FrictionProblem& problem, int island) const {
 /// True when some island's scale fell: it must be solved again.
 bool ImpactLaw::lower(const FrictionProblem& problem, bool give_up) {
   bool fell = false;
-  for (int i = 0; i < islands_.count(); ++i) {
+  for (size_t i = 0; i < islands_.size(); ++i) {
     if (scale_[i] == 0.0) continue;
-    const double factor = lowered_to(problem, i);
+    const double factor = lowered_to(problem, islands_[i]);
     if (factor == 1.0) continue;
     scale_[i] *= give_up ? 0.0 : factor;
     least_ = std::min(least_, scale_[i] * restitution_);
@@ -99,8 +100,8 @@ SolverRun ImpactLaw::solve(SolverRunner& runner, Solver& solver, FrictionProblem
   if (std::none_of(rebound.begin(), rebound.end(), [](double x) { return x < 0.0; }))
     return runner.run(solver, problem, std::move(start), budget);
   split_bias(problem, rebound);
-  islands_.find(problem);
-  scale_.assign(islands_.count(), 1.0);
+  islands_ = contact_islands(problem);
+  scale_.assign(islands_.size(), 1.0);
 
   // The inelastic impact, for what it takes.
   problem.dynamics.bias = walls_;

@@ -82,7 +82,7 @@ struct ErrorQuestion {
 /// contact under each backend and budget, over the problem's velocity scale. The bodies are those
 /// of the run whose capture/ holds the file, at the stored frame nearest to the problem's time;
 /// where no run is around the file, what the problem knows of them. Throws
-/// UnknownSolver, MissingSolver, UnsupportedProblem, ProblemFileError.
+/// UnknownSolver, MissingSolver, UnsupportedProblem, Error.
 ViewData view_of_problem(const std::filesystem::path& file, const ErrorQuestion& question);
 
 }  // namespace ballast

@@ -1,3 +1,6 @@
+// Compiled with -fno-trapping-math (problems/CMakeLists.txt): both sides of every choice are
+// computed, and the loops become vector instructions. No bit depends on it.
+
 #include "problems/algebra/contact_error.hpp"
 
 #include <algorithm>
@@ -10,15 +13,139 @@
 namespace ballast {
 namespace {
 
+/// What the judge asks of each contact, for so many side by side: number k of each in place k of
+/// every array. They are a share of the work, and stay in the first cache between the passes.
+struct JudgeBlock {
+  static constexpr int size = 64;
+
+  // What is given. Contacts of one row have zeros in the other rows; a place without a contact may
+  // hold anything.
+  alignas(64) double r[3][size];        ///< [N s]
+  double u[3][size], q[3][size];        ///< [m/s]
+  double nn[size], tn[size], sn[size];  ///< W_cc [1/kg]
+  double tt[size], st[size], ss[size];
+  double mu[size];
+
+  /// W_cc into place k, by its lower triangle.
+  void take(int k, const Eigen::Matrix3d& w) {
+    nn[k] = w(0, 0);
+    tn[k] = w(1, 0);
+    sn[k] = w(2, 0);
+    tt[k] = w(1, 1);
+    st[k] = w(2, 1);
+    ss[k] = w(2, 2);
+  }
+
+  // What is found.
+  double lambda[size];      ///< largest eigenvalue of W_cc [1/kg]
+  double scaled_map[size];  ///< scaled natural map [m/s]; says nothing where lambda = 0
+  double map_square[size];  ///< square of the natural map with rho = 1
+  double impulse[size];     ///< |r| [N s]
+  double needed[size];      ///< |q| / lambda [N s]; 0 where lambda = 0
+  double approach[size];    ///< max(0, -u_N) [m/s]
+  double outside[size];     ///< |r - P_K(r)| [N s]
+  double work[size];        ///< |r . (u + mu|u_T|n)| [J]
+  double unbalanced[size];  ///< the same as a velocity [m/s]
+};
+
+// The measures of a block, with the operations of the functions for one contact (friction_cone.hpp)
+// in their order: the same bits.
+
+#define BALLAST_IN_LOOP [[gnu::always_inline]] inline
+
+struct Triple {
+  double n, t, s;
+};
+BALLAST_IN_LOOP double dot(const Triple& x, const Triple& y) {
+  return x.n * y.n + x.t * y.t + x.s * y.s;
+}
+BALLAST_IN_LOOP double norm(const Triple& x) { return std::sqrt(dot(x, x)); }
+BALLAST_IN_LOOP double tangential(const Triple& x) { return std::sqrt(x.t * x.t + x.s * x.s); }
+
+/// x - P_K(y)
+BALLAST_IN_LOOP Triple less_projected(const Triple& x, const Triple& y, double mu) {
+  const double t = tangential(y);
+  const bool polar = mu * t <= -y.n, inside = t <= mu * y.n;
+  const double n = (mu * t + y.n) / (1.0 + mu * mu);
+  const double scale = mu * n / t;
+  const auto projected = [=](double own, double side) __attribute__((always_inline)) {
+    return polar ? 0.0 : inside ? own : side;
+  };
+  return {x.n - projected(y.n, n), x.t - projected(y.t, scale * y.t),
+          x.s - projected(y.s, scale * y.s)};
+}
+
+BALLAST_IN_LOOP Triple natural_map(const Triple& r, const Triple& modified, double mu, double rho) {
+  const Triple x{r.n - rho * modified.n, r.t - rho * modified.t, r.s - rho * modified.s};
+  return less_projected(r, x, mu);
+}
+
+BALLAST_IN_LOOP double eigenvalue(double nn, double tn, double sn, double tt, double st,
+                                  double ss) {
+  const double off = tn * tn + sn * sn + st * st;
+  const double mean = (nn + (tt + ss)) * (1.0 / 3.0);
+  const double x = nn - mean, y = tt - mean, z = ss - mean;
+  const double square = (x * x + y * y + z * z + 2.0 * off) * (1.0 / 6.0);
+  const double spread = std::sqrt(square);
+  const double determinant =
+      x * (y * z - st * st) - tn * (tn * z - st * sn) + sn * (tn * st - y * sn);
+  const double cosine = 0.5 + 0.25 * determinant / (square * spread);
+  const double not_below = cosine < 0.0 ? 0.0 : cosine;
+  const double s = std::sqrt(not_below > 1.0 ? 1.0 : not_below);
+  double w = 0.57729 + s * (-0.10927 + s * (0.04318 - 0.01123 * s));
+  for (int step = 0; step < 2; ++step)
+    w -= (w * w * (3.0 + 2.0 * s * w) - 1.0) / (6.0 * w * (1.0 + s * w));
+  const double full = mean + spread * (1.0 + 2.0 * s * w);
+  // A diagonal block: the fractions above are 0 / 0 where its entries are equal.
+  const double two = nn < tt ? tt : nn, three = two < ss ? ss : two;
+  return off == 0.0 ? three : full;
+}
+
+BALLAST_FOR_EACH_CPU void find_scales(JudgeBlock& b) {
+  for (int k = 0; k < JudgeBlock::size; ++k)
+    b.lambda[k] = eigenvalue(b.nn[k], b.tn[k], b.sn[k], b.tt[k], b.st[k], b.ss[k]);
+}
+
+BALLAST_FOR_EACH_CPU void find_measures(JudgeBlock& b) {
+  for (int k = 0; k < JudgeBlock::size; ++k) {
+    const Triple r{b.r[0][k], b.r[1][k], b.r[2][k]}, u{b.u[0][k], b.u[1][k], b.u[2][k]};
+    const Triple q{b.q[0][k], b.q[1][k], b.q[2][k]};
+    const double mu = b.mu[k], lambda = b.lambda[k];
+    const double inverse = 1.0 / lambda, rho = lambda > 0.0 ? inverse : 0.0;
+    const Triple modified{u.n + mu * tangential(u), u.t, u.s};
+    const double impulse = norm(r), work = std::abs(dot(r, modified));
+    // The natural map, scaled and not; the size of impulses.
+    const Triple map = natural_map(r, modified, mu, 1.0);
+    b.scaled_map[k] = norm(natural_map(r, modified, mu, inverse)) * lambda;
+    b.map_square[k] = dot(map, map);
+    b.impulse[k] = impulse;
+    b.needed[k] = rho * norm(q);
+    // The parts of the law.
+    b.approach[k] = 0.0 < -u.n ? -u.n : 0.0;
+    b.outside[k] = norm(less_projected(r, r, mu));
+    b.work[k] = work;
+    const double against = impulse + rho * norm(modified), ratio = work / against;
+    b.unbalanced[k] = against > 0.0 ? ratio : 0.0;
+  }
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Measures that are sums of squares until their roots are taken, and those that are largest
+/// values.
+constexpr double ContactError::*squares[] = {&ContactError::natural_map_rms, &ContactError::fclib,
+                                             &ContactError::approach_rms, &ContactError::cone_rms,
+                                             &ContactError::complementarity_rms};
+constexpr double ContactError::*largest[] = {&ContactError::cone_violation,
+                                             &ContactError::complementarity,
+                                             &ContactError::immovable_approach};
+
 ContactError not_finite() {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   ContactError error;
-  error.natural_map_rms = error.natural_map_max = error.fclib = infinity;
-  error.cone_violation = error.complementarity = error.power = infinity;
-  error.approach_rms = error.cone_rms = error.complementarity_rms = infinity;
-  error.immovable_approach = error.growth = infinity;
+  for (const auto measure : squares) error.*measure = infinity;
+  for (const auto measure : largest) error.*measure = infinity;
+  error.natural_map_max = error.growth = error.power = error.momentum_residual = infinity;
   error.min_normal_velocity = -infinity;
-  error.momentum_residual = infinity;
   error.finite = false;
   return error;
 }
@@ -124,7 +251,25 @@ void look_at_rows(const FrictionProblem& problem, const std::vector<MassRoot>& r
   }
 }
 
+/// Contacts begin <= c < end as the first places of a block, without W_cc.
+void lay_out(const FrictionProblem& problem, const Impulses& r, const Eigen::VectorXd& u,
+             const Eigen::VectorXd& q, int begin, int end, JudgeBlock& block) {
+  for (int c = begin; c < end; ++c) {
+    const int k = c - begin, first = problem.row_begin[c], rows = problem.contact_rows(c);
+    for (int i = 0; i < 3; ++i) {
+      block.r[i][k] = i < rows ? r[first + i] : 0.0;
+      block.u[i][k] = i < rows ? u[first + i] : 0.0;
+      block.q[i][k] = i < rows ? q[first + i] : 0.0;
+    }
+    block.mu[k] = problem.friction[c];
+  }
+}
+
 }  // namespace
+
+double largest_eigenvalue(const Eigen::Matrix3d& w) {
+  return eigenvalue(w(0, 0), w(1, 0), w(2, 0), w(1, 1), w(2, 1), w(2, 2));
+}
 
 void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
                                              const std::vector<int>& row_begin, const Impulses& r) {
@@ -135,25 +280,8 @@ void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
   }
   contact_to_body_impulse(dynamics, row_begin, r, hr_);
   v_ = hr_;
-  for (int b = 0; b < dynamics.body_count(); ++b) {
-    roots_[b].solve_lower(v_.data() + dynamics.dof_begin[b]);
-    roots_[b].solve_upper(v_.data() + dynamics.dof_begin[b]);
-  }
+  solve_masses(dynamics, roots_, v_);
   v_ += dynamics.v_free;
-}
-
-/// Contacts begin <= c < end as the first places of a block, without W_cc.
-void ContactJudge::lay_out(const FrictionProblem& problem, const Impulses& r, int begin, int end,
-                           JudgeBlock& block) const {
-  for (int c = begin; c < end; ++c) {
-    const int k = c - begin, first = problem.row_begin[c], rows = problem.contact_rows(c);
-    for (int i = 0; i < 3; ++i) {
-      block.r[i][k] = i < rows ? r[first + i] : 0.0;
-      block.u[i][k] = i < rows ? u_[first + i] : 0.0;
-      block.q[i][k] = i < rows ? q_[first + i] : 0.0;
-    }
-    block.mu[k] = problem.friction[c];
-  }
 }
 
 ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem, const Impulses& r,
@@ -164,18 +292,19 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
     look_at_rows(problem, roots_, v_, begin, end, q_, u_, block);
   else
     for (int c = begin; c < end; ++c) block.take(c - begin, diagonal_[c]);
-  lay_out(problem, r, begin, end, block);
-  measure(block);
+  lay_out(problem, r, u_, q_, begin, end, block);
+  find_scales(block);
+  find_measures(block);
   Share share;
-  share.min_normal_velocity = std::numeric_limits<double>::infinity();
+  share.min_normal_velocity = infinity;
   for (int k = 0; k < end - begin; ++k) {
     const double value = block.scaled_map[k], approach = block.approach[k];
     const double outside = block.lambda[k] * block.outside[k], unbalanced = block.unbalanced[k];
     if (block.lambda[k] > 0.0) {
-      share.scaled_square += value * value;
+      share.natural_map_rms += value * value;
       ++share.counted;
-      if (share.worst_contact < 0 || value > share.worst) {
-        share.worst = value;
+      if (share.worst_contact < 0 || value > share.natural_map_max) {
+        share.natural_map_max = value;
         share.worst_contact = begin + k;
       }
       share.impulse_scale = std::max(share.impulse_scale, block.needed[k]);
@@ -183,11 +312,11 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
       share.immovable_approach = std::max(share.immovable_approach, approach);
     }
     // The parts of the law, each as a velocity.
-    share.approach_square += approach * approach;
-    share.cone_square += outside * outside;
-    share.complementarity_square += unbalanced * unbalanced;
+    share.approach_rms += approach * approach;
+    share.cone_rms += outside * outside;
+    share.complementarity_rms += unbalanced * unbalanced;
     // The same in the file's units, and Siconos' measure.
-    share.square += block.map_square[k];
+    share.fclib += block.map_square[k];
     share.largest_impulse = std::max(share.largest_impulse, block.impulse[k]);
     share.cone_violation = std::max(share.cone_violation, block.outside[k]);
     share.min_normal_velocity = std::min(share.min_normal_velocity, block.u[0][k]);
@@ -198,44 +327,31 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
 
 /// The shares together, in their order. `fclib` is not yet divided by its scale.
 ContactError ContactJudge::gather(int contacts) const {
-  ContactError error;
-  double sum = 0.0, unscaled_sum = 0.0, approach = 0.0, cone = 0.0, complementarity = 0.0;
-  double largest_impulse = 0.0, impulse_scale = 0.0;
-  int counted = 0;
-  error.min_normal_velocity = std::numeric_limits<double>::infinity();
+  Share all;
+  all.min_normal_velocity = infinity;
   for (const Share& share : shares_) {
-    sum += share.scaled_square;
-    unscaled_sum += share.square;
-    counted += share.counted;
-    approach += share.approach_square;
-    cone += share.cone_square;
-    complementarity += share.complementarity_square;
+    for (const auto sum : squares) all.*sum += share.*sum;
+    for (const auto most : largest) all.*most = std::max(all.*most, share.*most);
+    all.counted += share.counted;
     if (share.worst_contact >= 0 &&
-        (error.worst_contact < 0 || share.worst > error.natural_map_max)) {
-      error.natural_map_max = share.worst;
-      error.worst_contact = share.worst_contact;
+        (all.worst_contact < 0 || share.natural_map_max > all.natural_map_max)) {
+      all.natural_map_max = share.natural_map_max;
+      all.worst_contact = share.worst_contact;
     }
-    error.cone_violation = std::max(error.cone_violation, share.cone_violation);
-    error.min_normal_velocity = std::min(error.min_normal_velocity, share.min_normal_velocity);
-    error.complementarity = std::max(error.complementarity, share.complementarity);
-    error.immovable_approach = std::max(error.immovable_approach, share.immovable_approach);
-    largest_impulse = std::max(largest_impulse, share.largest_impulse);
-    impulse_scale = std::max(impulse_scale, share.impulse_scale);
+    all.min_normal_velocity = std::min(all.min_normal_velocity, share.min_normal_velocity);
+    all.largest_impulse = std::max(all.largest_impulse, share.largest_impulse);
+    all.impulse_scale = std::max(all.impulse_scale, share.impulse_scale);
   }
-  error.natural_map_rms = counted > 0 ? std::sqrt(sum / counted) : 0.0;
-  error.fclib = std::sqrt(unscaled_sum);
-  error.approach_rms = std::sqrt(approach / contacts);
-  error.cone_rms = std::sqrt(cone / contacts);
-  error.complementarity_rms = std::sqrt(complementarity / contacts);
-  error.growth = impulse_scale > 0.0 ? largest_impulse / impulse_scale : 0.0;
-  return error;
+  all.natural_map_rms = all.counted > 0 ? std::sqrt(all.natural_map_rms / all.counted) : 0.0;
+  all.fclib = std::sqrt(all.fclib);
+  for (double* mean : {&all.approach_rms, &all.cone_rms, &all.complementarity_rms})
+    *mean = std::sqrt(*mean / contacts);
+  all.growth = all.impulse_scale > 0.0 ? all.largest_impulse / all.impulse_scale : 0.0;
+  return all;
 }
 
 ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses& r) {
-  if (r.size() != problem.row_count())
-    throw InvalidProblem("impulses has " + std::to_string(r.size()) +
-                         " entries, the contacts have " + std::to_string(problem.row_count()) +
-                         " rows");
+  require_rows(r, problem.row_count());
   const int contacts = problem.contact_count();
   if (problem.has_dynamics) recompute_body_velocities(problem.dynamics, problem.row_begin, r);
   // Workspaces, and for a stored W the whole of u and q.
@@ -248,11 +364,11 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     free_contact_velocity(problem, q_);
     contact_velocity(problem, r, u_);
   }
-  shares_.resize((contacts + share_contacts - 1) /
-                 share_contacts);  // cut in the same places whoever works
+  // Cut in the same places whoever works.
+  shares_.resize((contacts + JudgeBlock::size - 1) / JudgeBlock::size);
   // Every share: for the dynamics form its rows of u and q and its W_cc, then its measures.
   run_parts(team_, static_cast<int>(shares_.size()), [&](int part) {
-    const int begin = part * share_contacts, end = std::min(begin + share_contacts, contacts);
+    const int begin = part * JudgeBlock::size, end = std::min(begin + JudgeBlock::size, contacts);
     shares_[part] = judge_contacts(problem, r, begin, end);
   });
   if (!r.allFinite() || !u_.allFinite()) return not_finite();
@@ -277,29 +393,17 @@ ContactError contact_error(const FrictionProblem& problem, const Impulses& r) {
   return ContactJudge().judge(problem, r);
 }
 
-std::vector<double> errors_by_contact(const FrictionProblem& problem, const Impulses& r) {
-  Eigen::VectorXd u;
-  contact_velocity(problem, r, u);
-  std::vector<Eigen::Matrix3d> diagonal;
-  delassus_diagonal(problem, diagonal);
-  std::vector<double> errors;
-  for (int c = 0; c < problem.contact_count(); ++c) {
-    const double lambda_max = largest_eigenvalue(diagonal[c]);
-    const double error = lambda_max > 0.0
-                             ? ContactJudge::scaled_natural_map(rows_of_contact(problem, r, c),
-                                                                rows_of_contact(problem, u, c),
-                                                                problem.friction[c], lambda_max)
-                             : 0.0;
-    errors.push_back(std::isfinite(error) ? error : std::numeric_limits<double>::infinity());
-  }
-  return errors;
-}
-
 namespace {
 
+/// The rows of contact c as three: those that it has not are zero.
+Eigen::Vector3d rows_of_contact(const FrictionProblem& problem, const Eigen::VectorXd& all, int c) {
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  x.head(problem.contact_rows(c)) = all.segment(problem.row_begin[c], problem.contact_rows(c));
+  return x;
+}
+
 double part_of(double difference, double whole) {
-  if (difference == 0.0) return 0.0;
-  return std::abs(difference / whole);
+  return difference == 0.0 ? 0.0 : std::abs(difference / whole);
 }
 
 /// What bodies and the wall say: dynamics form only.
@@ -332,6 +436,24 @@ ContactStatus contact_status(const Eigen::Vector3d& r, const Eigen::Vector3d& u,
 }
 
 }  // namespace
+
+std::vector<double> errors_by_contact(const FrictionProblem& problem, const Impulses& r) {
+  Eigen::VectorXd u;
+  contact_velocity(problem, r, u);
+  std::vector<Eigen::Matrix3d> diagonal;
+  delassus_diagonal(problem, diagonal);
+  std::vector<double> errors;
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const double lambda_max = largest_eigenvalue(diagonal[c]);
+    const double error = lambda_max > 0.0
+                             ? ContactJudge::scaled_natural_map(rows_of_contact(problem, r, c),
+                                                                rows_of_contact(problem, u, c),
+                                                                problem.friction[c], lambda_max)
+                             : 0.0;
+    errors.push_back(std::isfinite(error) ? error : infinity);
+  }
+  return errors;
+}
 
 int driven_wall(const FrictionProblem& problem) {
   if (!problem.has_dynamics) return -1;

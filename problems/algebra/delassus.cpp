@@ -77,14 +77,6 @@ SparseRows assemble(const FrictionProblem& problem) {
 
 }  // namespace
 
-void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots) {
-  roots.resize(dynamics.body_count());
-  for (int b = 0; b < dynamics.body_count(); ++b)
-    if (!roots[b].factor(dynamics.mass.data() + dynamics.mass_begin[b], dynamics.body_dofs(b)))
-      throw InvalidProblem("dynamics.mass: the block of body " + std::to_string(b) +
-                           " is not positive definite");
-}
-
 void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
                        std::vector<Eigen::Matrix3d>& blocks) {
   blocks.resize(problem.contact_count());

@@ -8,9 +8,6 @@
 
 namespace ballast {
 
-/// Factors every mass block. Throws InvalidProblem for one that is not positive definite.
-void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots);
-
 /// Diagonal blocks W_cc of every contact, as 3 x 3 (a one-row contact uses only entry 0,0; the rest
 /// is zero). Of a stored W the symmetric part: rho and local solves need no more, and a solution
 /// does not depend on either.

@@ -72,12 +72,6 @@ inline void add_contact_impulse(const DynamicsForm& dynamics, int c, const doubl
   }
 }
 
-void require_rows(const char* name, Eigen::Index size, int rows) {
-  if (size != rows)
-    throw InvalidProblem(std::string(name) + " has " + std::to_string(size) +
-                         " entries, the contacts have " + std::to_string(rows) + " rows");
-}
-
 }  // namespace
 
 int DynamicsForm::add_body(const Eigen::MatrixXd& block) {
@@ -135,7 +129,6 @@ void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<in
   body_to_contact_velocity(dynamics, row_begin, v, 0, static_cast<int>(row_begin.size()) - 1, u);
 }
 
-/// p = H^T r, contact by contact.
 void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                              const Impulses& r, Eigen::VectorXd& p) {
   p.setZero(dynamics.dof_count());
@@ -149,7 +142,6 @@ void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int
   }
 }
 
-/// q of u = W r + q: the contacts' velocities without any impulse.
 void free_contact_velocity(const FrictionProblem& problem, Eigen::VectorXd& q) {
   if (problem.has_dynamics)
     body_to_contact_velocity(problem.dynamics, problem.row_begin, problem.dynamics.v_free, q);
@@ -157,8 +149,14 @@ void free_contact_velocity(const FrictionProblem& problem, Eigen::VectorXd& q) {
     q = problem.delassus.q;
 }
 
+void require_rows(const Impulses& r, int rows) {
+  if (r.size() != rows)
+    throw InvalidProblem("impulses has " + std::to_string(r.size()) +
+                         " entries, the contacts have " + std::to_string(rows) + " rows");
+}
+
 void contact_velocity(const FrictionProblem& problem, const Impulses& r, Eigen::VectorXd& u) {
-  require_rows("impulses", r.size(), problem.row_count());
+  require_rows(r, problem.row_count());
   // u = H v + bias with the bodies' velocities under the impulses, or u = W r + q as it is stored.
   if (problem.has_dynamics) {
     Eigen::VectorXd v;
@@ -172,19 +170,28 @@ void contact_velocity(const FrictionProblem& problem, const Impulses& r, Eigen::
 
 void body_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                    const Impulses& r, Eigen::VectorXd& v) {
-  require_rows("impulses", r.size(), row_begin.back());
-  // M^-1 H^T r, body by body.
+  require_rows(r, row_begin.back());
   contact_to_body_impulse(dynamics, row_begin, r, v);
-  MassRoot root;
-  for (int b = 0; b < dynamics.body_count(); ++b) {
-    double* vb = v.data() + dynamics.dof_begin[b];
-    if (!root.factor(dynamics.mass.data() + dynamics.mass_begin[b], dynamics.body_dofs(b)))
+  std::vector<MassRoot> roots;
+  factor_masses(dynamics, roots);
+  solve_masses(dynamics, roots, v);
+  v += dynamics.v_free;
+}
+
+void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots) {
+  roots.resize(dynamics.body_count());
+  for (int b = 0; b < dynamics.body_count(); ++b)
+    if (!roots[b].factor(dynamics.mass.data() + dynamics.mass_begin[b], dynamics.body_dofs(b)))
       throw InvalidProblem("dynamics.mass: the block of body " + std::to_string(b) +
                            " is not positive definite");
-    root.solve_lower(vb);
-    root.solve_upper(vb);
+}
+
+void solve_masses(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots,
+                  Eigen::VectorXd& v) {
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    roots[b].solve_lower(v.data() + dynamics.dof_begin[b]);
+    roots[b].solve_upper(v.data() + dynamics.dof_begin[b]);
   }
-  v += dynamics.v_free;
 }
 
 Eigen::SparseMatrix<double> sparse_mass(const DynamicsForm& dynamics) {
@@ -234,12 +241,6 @@ Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c) {
       if (j >= 0 && j < rows) block(i, j) = entry.value();
     }
   return block;
-}
-
-Eigen::Vector3d rows_of_contact(const FrictionProblem& problem, const Eigen::VectorXd& all, int c) {
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  x.head(problem.contact_rows(c)) = all.segment(problem.row_begin[c], problem.contact_rows(c));
-  return x;
 }
 
 // validate(): fast loops look for any bad entry; only when there is one is it looked for again, to
@@ -436,27 +437,22 @@ void validate_delassus(const FrictionProblem& problem) {
   for (int c = 0; c < problem.contact_count(); ++c) validate_diagonal_block(problem, c);
 }
 
-/// `valid`: masses that are known; may be null.
-void validate_all(const FrictionProblem& problem, KnownMasses* valid) {
-  validate_contacts(problem);
-  if (problem.has_dynamics) {
-    if (!valid || !valid->are_of(problem.dynamics)) {
-      validate_masses(problem.dynamics);
-      if (valid) valid->keep(problem.dynamics);
-    }
-    validate_dynamics(problem);
-  }
-  if (problem.has_delassus) validate_delassus(problem);
-  if (!problem.has_dynamics && !problem.has_delassus && problem.contact_count() > 0)
-    fail("has_dynamics = 0, has_delassus = 0: the problem of ", problem.contact_count(),
-         " contacts has neither form");
-}
-
 }  // namespace
 
-void FrictionProblem::validate() const { validate_all(*this, nullptr); }
-
-void validate(const FrictionProblem& problem, KnownMasses& valid) { validate_all(problem, &valid); }
+void FrictionProblem::validate(KnownMasses* valid) const {
+  validate_contacts(*this);
+  if (has_dynamics) {
+    if (!valid || !valid->are_of(dynamics)) {
+      validate_masses(dynamics);
+      if (valid) valid->keep(dynamics);
+    }
+    validate_dynamics(*this);
+  }
+  if (has_delassus) validate_delassus(*this);
+  if (!has_dynamics && !has_delassus && contact_count() > 0)
+    fail("has_dynamics = 0, has_delassus = 0: the problem of ", contact_count(),
+         " contacts has neither form");
+}
 
 bool KnownMasses::are_of(const DynamicsForm& dynamics) const {
   return dof_begin_ == dynamics.dof_begin && mass_begin_ == dynamics.mass_begin &&

@@ -28,6 +28,8 @@ inline constexpr double largest_friction = 1e4;
 /// square, product or determinant that a solver makes overflows.
 inline constexpr double largest_entry = 1e30, smallest_scale = 1e-30;
 
+struct MassRoot;
+
 /// A problem that no solver may see; what() names the array, the index and the value.
 class InvalidProblem : public std::runtime_error {
  public:
@@ -53,10 +55,8 @@ struct DynamicsForm {
   std::vector<int> h_begin{0};
   std::vector<double> h;
 
-  Eigen::VectorXd
-      v_free;  ///< velocity without contact impulses, one entry per unknown [m/s, rad/s]
-  Eigen::VectorXd
-      bias;  ///< one entry per contact row [m/s]: walls that move, gaps still open, restitution
+  Eigen::VectorXd v_free;  ///< without contact impulses, one entry per unknown [m/s, rad/s]
+  Eigen::VectorXd bias;    ///< per contact row [m/s]: walls that move, open gaps, restitution
 
   int body_count() const { return static_cast<int>(dof_begin.size()) - 1; }
   int dof_count() const { return dof_begin.back(); }
@@ -105,8 +105,9 @@ struct FrictionProblem {
   /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range,
   /// an entry that is not finite or beyond largest_entry, mu < 0 or beyond largest_friction, a mass
   /// block that is not symmetric positive definite, a Delassus diagonal block whose symmetric part
-  /// is not positive semidefinite or smaller than the rest. O(entries).
-  void validate() const;
+  /// is not positive semidefinite or smaller than the rest. O(entries). Masses are looked at only
+  /// if they are not `valid` already, and are kept there.
+  void validate(class KnownMasses* valid = nullptr) const;
 };
 
 /// A copy of the bodies' masses and unknowns, to tell whether they are the same, bit by bit: in a
@@ -121,17 +122,14 @@ class KnownMasses {
   std::vector<double> mass_;
 };
 
-/// FrictionProblem::validate() that looks at masses only if they are not `valid` already, and keeps
-/// them there.
-void validate(const FrictionProblem& problem, KnownMasses& valid);
-
 /// The diagonal block of contact c in the stored W, as it is; entries beyond its rows are zero.
 Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c);
-/// The rows of contact c as three: those that it has not are zero.
-Eigen::Vector3d rows_of_contact(const FrictionProblem& problem, const Eigen::VectorXd& all, int c);
 
 /// q = H v_free + bias (dynamics) or the stored q. `q` is resized.
 void free_contact_velocity(const FrictionProblem& problem, Eigen::VectorXd& q);
+
+/// Throws InvalidProblem unless the contacts have as many rows as r.
+void require_rows(const Impulses& r, int rows);
 
 /// u = W r + q, matrix-free for the dynamics form. Throws InvalidProblem when r has the wrong size.
 void contact_velocity(const FrictionProblem& problem, const Impulses& r, Eigen::VectorXd& u);
@@ -150,6 +148,12 @@ void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<in
 /// p = H^T r: what the contacts give to each unknown [N s, N m s] (dynamics form only).
 void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                              const Impulses& r, Eigen::VectorXd& p);
+
+/// Factors every mass block. Throws InvalidProblem for one that is not positive definite.
+void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots);
+/// v := M^-1 v, block by block.
+void solve_masses(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots,
+                  Eigen::VectorXd& v);
 
 /// M and H as sparse matrices, for backends that factorise: built only when asked for (dynamics
 /// form only).

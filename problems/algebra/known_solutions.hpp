@@ -12,16 +12,14 @@ struct KnownSolutionSettings {
   int bodies = 20;
   int contacts = 40;  ///< more than twice the bodies: W is rank deficient
   double friction_min = 0.0, friction_max = 1.0;
-  double mass_ratio = 1.0;      ///< masses log-uniform in [1, mass_ratio] kg
-  double open_fraction = 0.25;  ///< contacts with r = 0, u_N > 0
-  double slip_fraction =
-      0.35;  ///< contacts with r on the cone's side, u_T opposite; the rest stick
+  double mass_ratio = 1.0;             ///< masses log-uniform in [1, mass_ratio] kg
+  double open_fraction = 0.25;         ///< contacts with r = 0, u_N > 0
+  double slip_fraction = 0.35;         ///< r on the cone's side, u_T opposite; the rest stick
   double frictionless_fraction = 0.1;  ///< one-row contacts
-  int copies =
-      1;  ///< each contact so many times, its impulse shared: W's rank stays, its size grows
-  double mass_unit = 1.0;  ///< masses are multiplied by it,
-  double velocity_unit =
-      1.0;  ///< velocities by this, impulses by both: the same motion in other units
+  int copies = 1;  ///< of each contact, sharing its impulse: W's rank stays, its size grows
+  /// Masses are multiplied by the one, velocities by the other, impulses by both: the same motion
+  /// in other units.
+  double mass_unit = 1.0, velocity_unit = 1.0;
   std::uint64_t seed = 1;
 };
 
@@ -37,13 +35,6 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings);
 /// change; impulses are no longer unique.
 void repeat_contacts(FrictionProblem& problem, int copies);
 
-/// The matrix of x cross: cross_matrix(x) y = x.cross(y).
-inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& x) {
-  Eigen::Matrix3d cross;
-  cross << 0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0;
-  return cross;
-}
-
 /// Rows n, t1, t2 of a right-handed frame: n a unit vector, t1 across n and `other`, which must not
 /// be parallel to n.
 inline Eigen::Matrix3d contact_frame(const Eigen::Vector3d& n, const Eigen::Vector3d& other) {
@@ -56,8 +47,10 @@ inline Eigen::Matrix3d contact_frame(const Eigen::Vector3d& n, const Eigen::Vect
 /// Rows n, t1, t2 of `frame` of the velocity v + omega x arm at a point of a rigid body, as its
 /// block of H.
 inline Eigen::MatrixXd rigid_rows(const Eigen::Matrix3d& frame, const Eigen::Vector3d& arm) {
+  Eigen::Matrix3d cross;  // cross omega = arm x omega
+  cross << 0, -arm[2], arm[1], arm[2], 0, -arm[0], -arm[1], arm[0], 0;
   Eigen::MatrixXd rows(3, 6);
-  rows << frame, -frame * cross_matrix(arm);
+  rows << frame, -frame * cross;
   return rows;
 }
 

@@ -1,7 +1,5 @@
 #include "problems/files/captured_problem.hpp"
 
-#include <variant>
-
 #include "platform/text.hpp"
 #include "problems/files/fclib_file.hpp"
 
@@ -118,26 +116,6 @@ void require_scales(const Hdf5Reader& file, const CapturedProblem& captured) {
               words(captured.velocity_scale()) + " m/s, too small to measure by");
 }
 
-CapturedProblem read_side_group(const std::filesystem::path& path) {
-  // M, H, w and mu from the FCLIB part; how they divide into bodies and rows from the side group.
-  const auto stored = read_fclib(path);
-  const SideReader side{Hdf5Reader(path)};
-  const GlobalProblem* global = std::get_if<GlobalProblem>(&stored);
-  if (!global)
-    side.file.fail("has " + side_group + " beside a local problem: it belongs beside a global one");
-  CapturedProblem captured;
-  captured.problem = divided(*global, read_division(side, *global));
-  side("v_free", captured.problem.dynamics.v_free, static_cast<std::size_t>(global->m.rows()));
-  try {
-    captured.problem.validate();
-  } catch (const InvalidProblem& error) {
-    side.file.fail(error.what());
-  }
-  each_member(captured, side);
-  require_scales(side.file, captured);
-  return captured;
-}
-
 }  // namespace
 
 bool is_captured(const std::filesystem::path& file) {
@@ -151,7 +129,22 @@ bool is_captured(const std::filesystem::path& file) {
 }
 
 CapturedProblem read_captured(const std::filesystem::path& path) {
-  return with_problem_file_errors([&] { return read_side_group(path); });
+  // M, H, w and mu from the FCLIB part; how they divide into bodies and rows from the side group.
+  const SideReader side{Hdf5Reader(path)};
+  if (!side.file.has("/fclib_global"))
+    side.file.fail("has no global problem: " + side_group + " belongs beside one");
+  const GlobalProblem global = read_global(side.file);
+  CapturedProblem captured;
+  captured.problem = divided(global, read_division(side, global));
+  side("v_free", captured.problem.dynamics.v_free, static_cast<std::size_t>(global.m.rows()));
+  try {
+    captured.problem.validate();
+  } catch (const InvalidProblem& error) {
+    side.file.fail(error.what());
+  }
+  each_member(captured, side);
+  require_scales(side.file, captured);
+  return captured;
 }
 
 void write_captured(const std::filesystem::path& file, const CapturedProblem& captured) {

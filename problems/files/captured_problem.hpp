@@ -44,10 +44,10 @@ struct CapturedProblem {
 /// missing included.
 bool is_captured(const std::filesystem::path& file);
 
-/// Throws ProblemFileError: broken, or arrays that do not fit each other.
+/// Throws Error: broken, or arrays that do not fit each other.
 CapturedProblem read_captured(const std::filesystem::path& file);
 
-/// Written beside and renamed. Throws ProblemFileError; InvalidProblem for a problem without
+/// Written beside and renamed. Throws Error; InvalidProblem for a problem without
 /// dynamics form.
 void write_captured(const std::filesystem::path& file, const CapturedProblem& captured);
 

@@ -1,9 +1,200 @@
 #include "problems/files/fclib_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
+
+#include <Eigen/SparseLU>
+
+#include "problems/algebra/delassus.hpp"
+#include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
+namespace {
+
+using SparseColumns = Eigen::SparseMatrix<double>;
+
+/// Bodies of `size` consecutive unknowns each, and one of what is left behind the last. False: M or
+/// H forbid it. The size is known to the compiler: a division by it is made for every entry of H.
+template <int size>
+bool group(const GlobalProblem& global, Division& division) {
+  const int unknowns = static_cast<int>(global.m.rows());
+  if (unknowns % size > 1) return false;
+  for (int column = 0; column < unknowns; ++column)
+    for (SparseColumns::InnerIterator entry(global.m, column); entry; ++entry)
+      if (entry.value() != 0.0 && entry.row() / size != column / size) return false;
+  division = {};
+  for (int first = 0; first < unknowns; first += size)
+    division.dof_begin.push_back(std::min(first + size, unknowns));
+  const size_t contacts = global.mu.size();
+  division.rows.assign(contacts, 3);
+  division.body_a.assign(contacts, -1);
+  division.body_b.assign(contacts, -1);
+  // Column 3 c + k of H is row k of contact c; the unknowns in it say which bodies it touches.
+  for (int column = 0; column < global.h.outerSize(); ++column) {
+    int &a = division.body_a[column / 3], &b = division.body_b[column / 3];
+    for (SparseColumns::InnerIterator entry(global.h, column); entry; ++entry) {
+      const int body = static_cast<int>(entry.row()) / size;
+      if (entry.value() == 0.0 || body == a || body == b) continue;
+      if (b == -1)
+        b = body;
+      else if (a == -1)
+        a = body;
+      else
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Writes what columns first ... of a sparse matrix have in rows row_begin <= row < row_end to a
+/// dense block, by its own strides.
+void copy_block(const SparseColumns& from, int first, int columns, int row_begin, int row_end,
+                double* to, int row_stride, int column_stride) {
+  for (int k = 0; k < columns; ++k)
+    for (SparseColumns::InnerIterator entry(from, first + k); entry; ++entry)
+      if (entry.row() >= row_begin && entry.row() < row_end)
+        to[(entry.row() - row_begin) * row_stride + k * column_stride] = entry.value();
+}
+
+/// W = H^T M^-1 H and q = H^T M^-1 f + w. By LU: stored iteration matrices need not be quite
+/// symmetric.
+FrictionProblem condense(const GlobalProblem& global) {
+  Eigen::SparseLU<SparseColumns> factor(global.m);
+  if (factor.info() != Eigen::Success) throw InvalidProblem("M is singular");
+  const SparseColumns solved = factor.solve(global.h);
+  return local_problem(global.h.transpose() * solved,
+                       global.h.transpose() * factor.solve(global.f) + global.w, global.mu);
+}
+
+/// Where each of our rows is among three per contact.
+std::vector<int> file_rows(const FrictionProblem& problem) {
+  std::vector<int> rows(problem.row_count());
+  for (int c = 0; c < problem.contact_count(); ++c)
+    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
+      rows[row] = 3 * c + row - problem.row_begin[c];
+  return rows;
+}
+
+}  // namespace
+
+FrictionProblem local_problem(SparseRows w, Eigen::VectorXd q, std::vector<double> mu) {
+  FrictionProblem problem;
+  problem.friction = std::move(mu);
+  for (int c = 0; c < problem.contact_count(); ++c) problem.row_begin.push_back(3 * (c + 1));
+  problem.has_delassus = true;
+  problem.delassus.w.swap(w);
+  problem.delassus.w.makeCompressed();
+  problem.delassus.q = std::move(q);
+  return problem;
+}
+
+FrictionProblem divided(const GlobalProblem& global, const Division& division) {
+  FrictionProblem problem;
+  problem.friction = global.mu;
+  problem.has_dynamics = true;
+  DynamicsForm& dynamics = problem.dynamics;
+  dynamics.dof_begin = division.dof_begin;
+  dynamics.body_a = division.body_a;
+  dynamics.body_b = division.body_b;
+  // M is block diagonal: a body's mass is its diagonal block.
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    const int first = dynamics.dof_begin[b], dofs = dynamics.body_dofs(b);
+    const int begin = dynamics.mass_begin.back();
+    dynamics.mass.resize(begin + dofs * dofs);
+    copy_block(global.m, first, dofs, first, first + dofs, dynamics.mass.data() + begin, 1, dofs);
+    dynamics.mass_begin.push_back(begin + dofs * dofs);
+  }
+  // FCLIB has u = H^T v + w: a contact is three columns of H, and the transposes of what stands
+  // there in the rows of either body are the blocks of ours.
+  std::vector<double> bias;
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int rows = division.rows[c];
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+      if (body < 0) continue;
+      const int first = dynamics.dof_begin[body], dofs = dynamics.body_dofs(body);
+      dynamics.h.resize(dynamics.h.size() + rows * dofs);
+      copy_block(global.h, 3 * c, rows, first, first + dofs,
+                 dynamics.h.data() + dynamics.h.size() - rows * dofs, rows, 1);
+    }
+    dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
+    problem.row_begin.push_back(problem.row_begin.back() + rows);
+    for (int row = 0; row < rows; ++row) bias.push_back(global.w[3 * c + row]);
+  }
+  dynamics.bias = as_eigen(bias);
+  return problem;
+}
+
+FrictionProblem to_friction_problem(const GlobalProblem& global) {
+  // The first grouping that M and H allow: rigid bodies, or points; where none does, W is formed.
+  Division division;
+  if (!group<6>(global, division) && !group<3>(global, division)) return condense(global);
+  FrictionProblem problem = divided(global, division);
+  // f = M v_free is an impulse: v_free block by block, with the masses' own factors.
+  DynamicsForm& dynamics = problem.dynamics;
+  dynamics.v_free = global.f;
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    const int first = dynamics.dof_begin[b];
+    const double* block = dynamics.mass.data() + dynamics.mass_begin[b];
+    MassRoot root;
+    if (!root.factor(block, dynamics.body_dofs(b)))
+      throw InvalidProblem("M(" + std::to_string(first) + ", " + std::to_string(first) + ") = " +
+                           std::to_string(block[0]) + ": the block is not positive definite");
+    root.solve_lower(dynamics.v_free.data() + first);
+    root.solve_upper(dynamics.v_free.data() + first);
+  }
+  return problem;
+}
+
+Eigen::VectorXd three_rows(const FrictionProblem& problem, const Eigen::VectorXd& x) {
+  Eigen::VectorXd wide = Eigen::VectorXd::Zero(3 * problem.contact_count());
+  wide(file_rows(problem)) = x;
+  return wide;
+}
+
+Eigen::VectorXd own_rows(const FrictionProblem& problem, const Eigen::VectorXd& wide) {
+  return wide(file_rows(problem));
+}
+
+GlobalProblem to_global_problem(const FrictionProblem& problem) {
+  GlobalProblem global;
+  // The file's H: ours transposed. Tangents that a one-row contact has not are empty columns.
+  const SparseRows h = sparse_h(problem);
+  const std::vector<int> rows = file_rows(problem);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < problem.row_count(); ++row)
+    for (SparseRows::InnerIterator entry(h, row); entry; ++entry)
+      entries.emplace_back(static_cast<int>(entry.col()), rows[row], entry.value());
+  global.h.resize(h.cols(), 3 * problem.contact_count());
+  global.h.setFromTriplets(entries.begin(), entries.end());
+  global.m = sparse_mass(problem.dynamics);
+  global.f = global.m * problem.dynamics.v_free;
+  global.w = three_rows(problem, problem.dynamics.bias);
+  global.mu = problem.friction;
+  return global;
+}
+
+FrictionProblem condensed(const FrictionProblem& problem) {
+  SparseRows w = delassus_matrix(problem);
+  Eigen::VectorXd q;
+  free_contact_velocity(problem, q);
+  const int wide = 3 * problem.contact_count();
+  if (problem.row_count() < wide) {
+    const std::vector<int> rows = file_rows(problem);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int row = 0; row < problem.row_count(); ++row)
+      for (SparseRows::InnerIterator entry(w, row); entry; ++entry)
+        entries.emplace_back(rows[row], rows[entry.col()], entry.value());
+    w.resize(wide, wide);
+    w.setFromTriplets(entries.begin(), entries.end());
+    q = three_rows(problem, q);
+  }
+  return local_problem(std::move(w), std::move(q), problem.friction);
+}
+
+// The layout.
+
 namespace {
 
 /// `nz` says how a matrix is stored: the number of triplets, or one of these.
@@ -63,9 +254,8 @@ Matrix read_matrix(const Hdf5Reader& file, const std::string& group, int rows, i
     // structure comes, have p = columns, i = rows.
     for (int k = 0; k < nz; ++k) visit(k, i[k], p[k]);
   };
-  // Lines that are stored as the matrix keeps them, and ascend, are copied.
-  bool is_own = nz == (Matrix::IsRowMajor ? compressed_rows : compressed_columns);
-  std::pair<int, int> last{-1, -1};
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(count));
   each_entry([&](int k, int row, int column) {
     if (row < 0 || row >= rows || column < 0 || column >= columns)
       file.fail(group + ": entry " + std::to_string(k) + " at (" + std::to_string(row) + ", " +
@@ -73,13 +263,8 @@ Matrix read_matrix(const Hdf5Reader& file, const std::string& group, int rows, i
     if (!std::isfinite(x[k]))
       file.fail(group + "/x[" + std::to_string(k) + "] = " + std::to_string(x[k]) +
                 " is not finite");
-    const std::pair here = by_rows ? std::pair(row, column) : std::pair(column, row);
-    is_own = is_own && last < here;
-    last = here;
+    entries.emplace_back(row, column, x[k]);
   });
-  if (is_own) return Eigen::Map<const Matrix>(rows, columns, count, p.data(), i.data(), x.data());
-  std::vector<Eigen::Triplet<double>> entries;
-  each_entry([&](int k, int row, int column) { entries.emplace_back(row, column, x[k]); });
   Matrix matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -98,32 +283,14 @@ void require_unilateral_3d(const Hdf5Reader& file, const std::string& root) {
 // The vectors come first: the sizes of the matrices are theirs, and not what a header claims.
 
 /// W, q and mu of u = W r + q: three rows a contact, normal first.
-LocalProblem read_local(const Hdf5Reader& file) {
+FrictionProblem read_local(const Hdf5Reader& file) {
   const std::string root = "/fclib_local";
   require_unilateral_3d(file, root);
-  LocalProblem local;
-  local.mu = read_vector(file, root + "/vectors/mu");
-  const int rows = 3 * static_cast<int>(local.mu.size());
-  local.q = as_eigen(read_vector(file, root + "/vectors/q", rows));
-  local.w = read_matrix<SparseRows>(file, root + "/W", rows, rows);
-  return local;
-}
-
-/// M, H, f, w and mu of M v = H r + f, u = H^T v + w: H has unknowns for rows, contacts for
-/// columns.
-GlobalProblem read_global(const Hdf5Reader& file) {
-  const std::string root = "/fclib_global";
-  require_unilateral_3d(file, root);
-  using Columns = Eigen::SparseMatrix<double>;
-  GlobalProblem global;
-  global.mu = read_vector(file, root + "/vectors/mu");
-  global.f = as_eigen(read_vector(file, root + "/vectors/f"));
-  const int rows = 3 * static_cast<int>(global.mu.size());
-  const int unknowns = static_cast<int>(global.f.size());
-  global.w = as_eigen(read_vector(file, root + "/vectors/w", rows));
-  global.m = read_matrix<Columns>(file, root + "/M", unknowns, unknowns);
-  global.h = read_matrix<Columns>(file, root + "/H", unknowns, rows);
-  return global;
+  std::vector<double> mu = read_vector(file, root + "/vectors/mu");
+  const int rows = 3 * static_cast<int>(mu.size());
+  Eigen::VectorXd q = as_eigen(read_vector(file, root + "/vectors/q", rows));
+  return local_problem(read_matrix<SparseRows>(file, root + "/W", rows, rows), std::move(q),
+                       std::move(mu));
 }
 
 /// Compressed: unlike triplets, the order of whose index arrays the format leaves open.
@@ -159,11 +326,11 @@ void write_head(Hdf5Writer& file, const std::string& root) {
   file.add_text(root + "/info/math_info", "-");
 }
 
-void add_local(Hdf5Writer& file, const LocalProblem& local) {
+void add_local(Hdf5Writer& file, const FrictionProblem& local) {
   write_head(file, "/fclib_local");
-  write_matrix(file, "/fclib_local/W", local.w);
-  file.add("/fclib_local/vectors/q", as_vector(local.q));
-  file.add("/fclib_local/vectors/mu", local.mu);
+  write_matrix(file, "/fclib_local/W", local.delassus.w);
+  file.add("/fclib_local/vectors/q", as_vector(local.delassus.q));
+  file.add("/fclib_local/vectors/mu", local.friction);
 }
 
 void add_global(Hdf5Writer& file, const GlobalProblem& global) {
@@ -177,55 +344,62 @@ void add_global(Hdf5Writer& file, const GlobalProblem& global) {
 
 }  // namespace
 
-std::variant<LocalProblem, GlobalProblem> read_fclib(const std::filesystem::path& path) {
-  using Stored = std::variant<LocalProblem, GlobalProblem>;
-  return with_problem_file_errors([&]() -> Stored {
-    const Hdf5Reader file(path);
-    if (file.has("/fclib_global")) return read_global(file);
-    if (file.has("/fclib_local")) return read_local(file);
-    file.fail("has neither /fclib_local nor /fclib_global");
-  });
+/// M, H, f, w and mu of M v = H r + f, u = H^T v + w: H has unknowns for rows, contacts for
+/// columns.
+GlobalProblem read_global(const Hdf5Reader& file) {
+  const std::string root = "/fclib_global";
+  require_unilateral_3d(file, root);
+  GlobalProblem global;
+  global.mu = read_vector(file, root + "/vectors/mu");
+  global.f = as_eigen(read_vector(file, root + "/vectors/f"));
+  const int rows = 3 * static_cast<int>(global.mu.size());
+  const int unknowns = static_cast<int>(global.f.size());
+  global.w = as_eigen(read_vector(file, root + "/vectors/w", rows));
+  global.m = read_matrix<SparseColumns>(file, root + "/M", unknowns, unknowns);
+  global.h = read_matrix<SparseColumns>(file, root + "/H", unknowns, rows);
+  return global;
+}
+
+FrictionProblem read_fclib(const std::filesystem::path& path) {
+  const Hdf5Reader file(path);
+  if (file.has("/fclib_global")) return to_friction_problem(read_global(file));
+  if (file.has("/fclib_local")) return read_local(file);
+  file.fail("has neither /fclib_local nor /fclib_global");
 }
 
 void write_problem(const std::filesystem::path& path, const FrictionProblem& problem,
                    StoredForms forms, const std::function<void(Hdf5Writer&)>& add) {
   problem.validate();
   const bool has_bodies = problem.has_dynamics && forms != StoredForms::delassus;
-  with_problem_file_errors([&] {
-    Hdf5Writer file(path, Hdf5Storage::plain);
-    if (has_bodies) add_global(file, to_global_problem(problem));
-    if (!has_bodies || forms == StoredForms::both) add_local(file, condensed(problem));
-    if (add) add(file);
-    file.commit();
-  });
+  Hdf5Writer file(path, Hdf5Storage::plain);
+  if (has_bodies) add_global(file, to_global_problem(problem));
+  if (!has_bodies || forms == StoredForms::both) add_local(file, condensed(problem));
+  if (add) add(file);
+  file.commit();
 }
 
 void write_solution(const std::filesystem::path& path, const FrictionProblem& problem,
                     const StoredSolution& solution) {
   Eigen::VectorXd u, v;
   contact_velocity(problem, solution.r, u);
-  with_problem_file_errors([&] {
-    Hdf5Writer file(path, Hdf5Storage::plain);
-    file.add_group("/solution");
-    file.add("/solution/r", as_vector(three_rows(problem, solution.r)));
-    file.add("/solution/u", as_vector(three_rows(problem, u)));
-    if (problem.has_dynamics) {
-      body_velocity(problem.dynamics, problem.row_begin, solution.r, v);
-      file.add("/solution/v", as_vector(v));
-    }
-    file.add_group("/ballast_answer");
-    for (const auto& [name, value] : solution.numbers)
-      file.add("/ballast_answer/" + name, std::vector<double>{value});
-    for (const auto& [name, text] : solution.texts) file.add_text("/ballast_answer/" + name, text);
-    file.commit();
-  });
+  Hdf5Writer file(path, Hdf5Storage::plain);
+  file.add_group("/solution");
+  file.add("/solution/r", as_vector(three_rows(problem, solution.r)));
+  file.add("/solution/u", as_vector(three_rows(problem, u)));
+  if (problem.has_dynamics) {
+    body_velocity(problem.dynamics, problem.row_begin, solution.r, v);
+    file.add("/solution/v", as_vector(v));
+  }
+  file.add_group("/ballast_answer");
+  for (const auto& [name, value] : solution.numbers)
+    file.add("/ballast_answer/" + name, std::vector<double>{value});
+  for (const auto& [name, text] : solution.texts) file.add_text("/ballast_answer/" + name, text);
+  file.commit();
 }
 
 Impulses read_solution(const std::filesystem::path& path, const FrictionProblem& problem) {
-  return with_problem_file_errors([&] {
-    const int rows = 3 * problem.contact_count();
-    return own_rows(problem, as_eigen(read_vector(Hdf5Reader(path), "/solution/r", rows)));
-  });
+  const int rows = 3 * problem.contact_count();
+  return own_rows(problem, as_eigen(read_vector(Hdf5Reader(path), "/solution/r", rows)));
 }
 
 }  // namespace ballast

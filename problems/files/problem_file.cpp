@@ -3,11 +3,9 @@
 #include <glob.h>
 
 #include <algorithm>
-#include <variant>
 
 #include "platform/atomic_file.hpp"
 #include "problems/files/captured_problem.hpp"
-#include "problems/files/siconos_text.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -48,18 +46,16 @@ bool is_problem_file(const fs::path& file) {
 }
 
 FrictionProblem read_problem(const fs::path& file) {
-  if (!is_problem_file(file))
-    throw ProblemFileError(file.string() + ": is no problem file " + suffixes);
+  if (!is_problem_file(file)) throw Error(file.string() + ": is no problem file " + suffixes);
   // A captured problem has the exact dynamics form beside the FCLIB one.
   if (is_captured(file)) return read_captured(file).problem;
-  const auto stored = file.extension() == ".dat" ? read_siconos_text(file) : read_fclib(file);
   try {
     FrictionProblem problem =
-        std::visit([](const auto& form) { return to_friction_problem(form); }, stored);
+        file.extension() == ".dat" ? read_siconos_text(file) : read_fclib(file);
     problem.validate();
     return problem;
   } catch (const InvalidProblem& error) {
-    throw ProblemFileError(file.string() + ": " + error.what());
+    throw Error(file.string() + ": " + error.what());
   }
 }
 

@@ -12,10 +12,17 @@
 namespace ballast {
 
 /// Reads .hdf5/.h5 (FCLIB local or global, 3-D) or .dat (Siconos FrictionContact: dense, block or
-/// sparse). Throws ProblemFileError. Global problems keep the dynamics form when M is block
+/// sparse). Throws Error. Global problems keep the dynamics form when M is block
 /// diagonal by bodies and a contact touches at most two of them; otherwise W is formed. What a run
 /// captured comes back in the form in which it was written.
 FrictionProblem read_problem(const std::filesystem::path& file);
+
+/// Siconos' text format of FrictionContactProblem and GlobalFrictionContactProblem: numbers
+/// separated by white space. Local: dimension, contacts, W, q, mu. Global: dimension, contacts, M,
+/// H, q, b, mu: told apart by the first matrix, which has as many rows as the contacts only when it
+/// is W. Matrices are dense, by blocks, or sparse. Not yet validated. Throws Error with the line;
+/// InvalidProblem.
+FrictionProblem read_siconos_text(const std::filesystem::path& file);
 
 /// By its suffix: .hdf5, .h5, .dat.
 bool is_problem_file(const std::filesystem::path& file);

@@ -1,4 +1,4 @@
-#include "problems/files/siconos_text.hpp"
+// Siconos' text format (.dat) is read.
 
 #include <algorithm>
 #include <cctype>
@@ -12,21 +12,19 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
+#include "problems/files/problem_file.hpp"
 
 namespace ballast {
 namespace {
-
-using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// The file's words, one after the other, with the line for error messages.
 class Words {
  public:
   explicit Words(const std::filesystem::path& file)
-      : name_(file.string()),
-        text_(with_problem_file_errors([&] { return read_whole_file(file); })) {}
+      : name_(file.string()), text_(read_whole_file(file)) {}
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw ProblemFileError(name_ + ": line " + std::to_string(line_) + ": " + what);
+    throw Error(name_ + ": line " + std::to_string(line_) + ": " + what);
   }
   void require(bool condition, const std::string& what) const {
     if (!condition) fail(what);
@@ -116,12 +114,11 @@ class Words {
 
 struct TextMatrix {
   int rows = 0, columns = 0;
-  Triplets entries;
+  std::vector<Eigen::Triplet<double>> entries;
 
   void add(const Words& words, int row, int column, double value) {
-    words.require(row >= 0 && row < rows && column >= 0 && column < columns,
-                  "entry (" + std::to_string(row) + ", " + std::to_string(column) +
-                      ") is outside " + std::to_string(rows) + " x " + std::to_string(columns));
+    if (row < 0 || row >= rows || column < 0 || column >= columns)
+      words.fail(printed("entry (%d, %d) is outside %d x %d", row, column, rows, columns));
     if (value != 0.0) entries.emplace_back(row, column, value);
   }
 };
@@ -222,14 +219,15 @@ TextMatrix read_matrix(Words& words) {
 }
 
 template <typename Sparse>
-void assign(Sparse& sparse, const TextMatrix& matrix) {
-  sparse.resize(matrix.rows, matrix.columns);
-  sparse.setFromTriplets(matrix.entries.begin(), matrix.entries.end());
+Sparse sparse(const TextMatrix& matrix) {
+  Sparse made(matrix.rows, matrix.columns);
+  made.setFromTriplets(matrix.entries.begin(), matrix.entries.end());
+  return made;
 }
 
 }  // namespace
 
-std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesystem::path& file) {
+FrictionProblem read_siconos_text(const std::filesystem::path& file) {
   Words words(file);
   const int dimension = words.integer("the dimension");
   words.require(dimension == 3, "dimension " + std::to_string(dimension) + ": only 3 is supported");
@@ -242,24 +240,21 @@ std::variant<LocalProblem, GlobalProblem> read_siconos_text(const std::filesyste
   for (int storage = 0; storage <= 2; ++storage)
     h_follows = h_follows || words.next_are({storage, first.rows, 3 * contacts});
   if (!h_follows) {
-    LocalProblem local;
-    assign(local.w, first);
-    local.q = as_eigen(words.list<double>(first.rows, "q"));
-    local.mu = words.list<double>(contacts, "mu");
-    return local;
+    Eigen::VectorXd q = as_eigen(words.list<double>(first.rows, "q"));
+    return local_problem(sparse<SparseRows>(first), std::move(q),
+                         words.list<double>(contacts, "mu"));
   }
   const TextMatrix h = read_matrix(words);
-  words.require(h.rows == first.rows && h.columns == 3 * contacts,
-                "H is " + std::to_string(h.rows) + " x " + std::to_string(h.columns) +
-                    ", must be " + std::to_string(first.rows) + " x " +
-                    std::to_string(3 * contacts));
+  words.require(
+      h.rows == first.rows && h.columns == 3 * contacts,
+      printed("H is %d x %d, must be %d x %d", h.rows, h.columns, first.rows, 3 * contacts));
   GlobalProblem global;
-  assign(global.m, first);
-  assign(global.h, h);
+  global.m = sparse<Eigen::SparseMatrix<double>>(first);
+  global.h = sparse<Eigen::SparseMatrix<double>>(h);
   global.f = as_eigen(words.list<double>(first.rows, "q"));
   global.w = as_eigen(words.list<double>(h.columns, "b"));
   global.mu = words.list<double>(contacts, "mu");
-  return global;
+  return to_friction_problem(global);
 }
 
 }  // namespace ballast

@@ -6,11 +6,9 @@
 namespace ballast {
 
 Mat3 contact_frame(const Vec3& n) {
-  // T1 in the plane of n and the world axis that is least along n (the first of equals): never
-  // near-parallel
+  // T1 in the plane of n and the world axis that is least along n: never near-parallel.
   int axis = 0;
-  if (std::abs(n.y()) < std::abs(n[axis])) axis = 1;
-  if (std::abs(n.z()) < std::abs(n[axis])) axis = 2;
+  n.cwiseAbs().minCoeff(&axis);
   Mat3 frame;
   frame.row(0) = n;
   frame.row(1) = (Vec3::Unit(axis) - n[axis] * n).normalized();
@@ -29,7 +27,7 @@ ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(sys
     const bool is_like_last = !sides_.empty() && *sides_.back().freedom == body.freedom;
     sides_.push_back({Mat3::Identity(), Vec3::Zero(),
                       is_like_last ? sides_.back().freedom : &body.freedom,
-                      body.is_wall() ? body.wall_friction : -1.0});
+                      body.is_wall() ? body.wall.friction : -1.0});
     if (body.is_wall() && body.wall.motion == WallMotion::prescribed)
       some_wall_is_prescribed_ = true;
     const int dofs = body.freedom.count();
@@ -217,11 +215,8 @@ void ProblemAssembler::prescribed_part(std::span<const ContactPoint> contacts, d
 void ProblemAssembler::to_rows(std::span<const Vec3> world, Impulses& r) const {
   r.resize(row_begin_.back());
   for (size_t k = 0; k < detected_.size(); ++k) {
-    const Vec3 rows = frames_[k] * world[detected_[k]];
-    if (row_begin_[k + 1] - row_begin_[k] == 3)
-      r.segment<3>(row_begin_[k]) = rows;
-    else
-      r[row_begin_[k]] = rows[0];
+    const int n = row_begin_[k + 1] - row_begin_[k];
+    r.segment(row_begin_[k], n) = (frames_[k] * world[detected_[k]]).head(n);
   }
 }
 

@@ -1,5 +1,11 @@
 #include "problems/mechanics/mechanical_system.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "platform/text.hpp"
+
 namespace ballast {
 namespace {
 
@@ -7,9 +13,8 @@ Freedom freedom_of(const BodySpec& spec) {
   Freedom freedom;
   // The free directions in the order x, y, z: the first columns of `axes`.
   freedom.translations = 0;
-  const bool free[3] = {spec.free_x, spec.free_y, spec.free_z};
   for (int axis = 0; axis < 3; ++axis)
-    if (free[axis]) freedom.axes.col(freedom.translations++) = Vec3::Unit(axis);
+    if (spec.free[axis]) freedom.axes.col(freedom.translations++) = Vec3::Unit(axis);
   freedom.rotation = spec.free_rotation;
   return freedom;
 }
@@ -27,13 +32,6 @@ int MechanicalSystem::first_driven_wall() const {
     if (bodies[b].is_wall() && bodies[b].wall.motion == WallMotion::driven)
       return static_cast<int>(b);
   return -1;
-}
-
-/// A wall has one coefficient for all its contacts; between bodies there is the scene's.
-double MechanicalSystem::pair_friction(int a, int b) const {
-  if (bodies[a].is_wall()) return bodies[a].wall_friction;
-  if (bodies[b].is_wall()) return bodies[b].wall_friction;
-  return friction;
 }
 
 void add_body(MechanicalSystem& system, MotionState& state, const BodySpec& spec, double volume) {
@@ -58,7 +56,6 @@ void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec
   RigidBody body;
   body.name = spec.name;
   body.wall = spec;
-  body.wall_friction = spec.friction;
   body.freedom.translations = 0;
   body.freedom.rotation = false;
   if (spec.motion == WallMotion::driven) {
@@ -108,8 +105,6 @@ double kinetic_energy(const RigidBody& body, const Vec3& velocity, const Vec3& s
   return energy;
 }
 
-/// How far the wall's plane has moved outwards, against its normal,
-/// from its place in the scene [m].
 double outward_displacement(const MechanicalSystem& system, const MotionState& state, int wall) {
   const WallSpec& spec = system.bodies[wall].wall;
   return spec.offset - spec.normal.dot(state.pose[wall].position);
@@ -117,6 +112,35 @@ double outward_displacement(const MechanicalSystem& system, const MotionState& s
 
 double outward_velocity(const MechanicalSystem& system, const MotionState& state, int wall) {
   return -system.bodies[wall].wall.normal.dot(state.velocity[wall]);
+}
+
+ControlVolume::ControlVolume(const Vec3& lo, const Vec3& hi) : lo_(lo), hi_(hi) {
+  if ((lo.array() < hi.array()).all()) return;
+  throw std::invalid_argument(
+      printed("control volume: the margins leave nothing: from (%g %g %g) to (%g %g %g) m", lo.x(),
+              lo.y(), lo.z(), hi.x(), hi.y(), hi.z()));
+}
+
+double ControlVolume::solid_fraction(const MechanicalSystem& system, const MotionState& state,
+                                     WorkerTeam* team) {
+  // Grains that stand on the box's faces take nearly all the time and lie side by side: small parts
+  // share them out.
+  constexpr int parts_of_thread = 8;
+  const int parts = size_of(team) == 1 ? 1 : parts_of_thread * size_of(team);
+  clippers_.resize(std::max(clippers_.size(), static_cast<size_t>(parts)));
+  inside_.resize(static_cast<size_t>(system.grain_count));
+  run_parts(team, parts, [&](int part) {
+    const long grains = system.grain_count, begin = grains * part / parts,
+               end = grains * (part + 1) / parts;
+    for (long b = begin; b < end; ++b) {
+      const RigidBody& body = system.bodies[b];
+      inside_[b] =
+          clippers_[part].volume(*body.shape.polyhedron, state.pose[b], lo_, hi_, body.volume);
+    }
+  });
+  // Grains' volumes within the box over the box's own; where grains overlap both are counted. One
+  // after the other, whoever clipped them: the same bits.
+  return std::accumulate(inside_.begin(), inside_.end(), 0.0) / volume();
 }
 
 }  // namespace ballast

@@ -1,9 +1,12 @@
 #pragma once
-// A scene's bodies and walls as one list of rigid bodies, and their state.
+// A scene's bodies and walls as one list of rigid bodies, and their state; and how much of a box at
+// rest grains fill (Fig. 12 of the paper).
 
 #include <string>
 #include <vector>
 
+#include "geometry/shape/clipped_volume.hpp"
+#include "platform/worker_team.hpp"
 #include "problems/scene/scene.hpp"
 
 namespace ballast {
@@ -26,10 +29,9 @@ struct RigidBody {
   double mass = 0.0;            ///< [kg]; unused without freedom
   Vec3 inertia = Vec3::Zero();  ///< principal [kg m^2]
   Freedom freedom;
-  double volume = 0.0;          ///< [m^3]; 0 for walls
-  double wall_friction = -1.0;  ///< >= 0 for walls: mu of contacts with it
-  ForceSpec force;              ///< on bodies
-  WallSpec wall;                ///< on walls: motion and load
+  double volume = 0.0;  ///< [m^3]; 0 for walls
+  ForceSpec force;      ///< on bodies
+  WallSpec wall;        ///< on walls: motion, load, and mu of contacts with it
   bool is_wall() const { return shape.polyhedron == nullptr; }
 };
 
@@ -52,8 +54,7 @@ struct MechanicalSystem {
   double restitution = 0.0;
 
   double mass_of_grains() const;
-  int first_driven_wall() const;             ///< -1 when there is none
-  double pair_friction(int a, int b) const;  ///< a wall's own mu, else the bodies'
+  int first_driven_wall() const;  ///< -1 when there is none
 };
 
 /// Bodies and walls of a scene, with the initial state. For scenes with `grains` use
@@ -73,5 +74,26 @@ double kinetic_energy(const RigidBody& body, const Vec3& velocity, const Vec3& s
 /// velocity [m/s].
 double outward_displacement(const MechanicalSystem& system, const MotionState& state, int wall);
 double outward_velocity(const MechanicalSystem& system, const MotionState& state, int wall);
+
+/// The axis-aligned box [lo, hi], world frame [m]. Keeps buffers: one per calling thread.
+class ControlVolume {
+ public:
+  /// Throws std::invalid_argument unless lo < hi in all three directions.
+  ControlVolume(const Vec3& lo, const Vec3& hi);
+
+  /// Volume of all grains inside the box over the volume of the box, exact to rounding. Overlaps of
+  /// grains count twice. A team shares the work; its size changes no bit.
+  double solid_fraction(const MechanicalSystem& system, const MotionState& state,
+                        WorkerTeam* team = nullptr);
+
+  const Vec3& lo() const { return lo_; }
+  const Vec3& hi() const { return hi_; }
+  double volume() const { return (hi_ - lo_).prod(); }
+
+ private:
+  Vec3 lo_, hi_;
+  std::vector<BoxClipper> clippers_;  // one for each part of the work
+  std::vector<double> inside_;        // of each grain [m^3]
+};
 
 }  // namespace ballast

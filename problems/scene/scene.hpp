@@ -2,6 +2,7 @@
 // A scene: everything a run depends on, as plain data. Read from TOML by scene_file, turned into
 // bodies by mechanical_system.
 
+#include <array>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -44,9 +45,9 @@ struct WallSpec {
   WallMotion motion = WallMotion::fixed;
   double mass = 0.0;  ///< driven: [kg]
   HarmonicLoad load;  ///< driven
-  Vec3 amplitude =
-      Vec3::Zero();  ///< prescribed: displacement amplitude (1 - cos 2 pi nu t), from rest [m]
-  double frequency = 0.0;  ///< prescribed: nu [Hz]
+  /// prescribed: displacement amplitude (1 - cos 2 pi nu t), from rest [m]; nu [Hz]
+  Vec3 amplitude = Vec3::Zero();
+  double frequency = 0.0;
 };
 
 /// f(t) = constant + amplitude cos(2 pi nu t + phase): a force on a body's centre of mass, world
@@ -71,8 +72,8 @@ struct BodySpec {
   Vec3 velocity = Vec3::Zero();             ///< world frame [m/s]
   Vec3 spin = Vec3::Zero();                 ///< angular velocity, body frame [rad/s]
   ForceSpec force;
-  bool free_x = true, free_y = true, free_z = true;  ///< translations along the world axes
-  bool free_rotation = true;                         ///< all three rotations or none
+  std::array<bool, 3> free{true, true, true};  ///< translations along the world axes
+  bool free_rotation = true;                   ///< all three rotations or none
 };
 
 /// A crowd of generated (or scanned) grains to be deposited in the box.
@@ -83,9 +84,9 @@ struct GrainsSpec {
   SizeConvention size_convention = SizeConvention::radius;
   std::vector<SizeClass> distribution;
   GrainShapeSettings shape;
-  std::vector<Polyhedron> meshes;  ///< the user's own grains, hulls of what was in the files when
-                                   ///< the scene was read; used in turn instead of generated ones,
-                                   ///< scaled to the sizes
+  /// The user's own grains, hulls of what was in the files when the scene was read; used in turn
+  /// instead of generated ones, scaled to the sizes.
+  std::vector<Polyhedron> meshes;
 };
 
 /// The box the grains are in: walls x_min, x_max, y_min, y_max, floor, lid. z up.
@@ -103,15 +104,14 @@ struct DepositSpec {
   double fill_fraction = 0.30;  ///< of the bounding spheres in the initial rain: its height follows
   double max_time = 3.0;        ///< [s] give up waiting for rest after this
   double rest_velocity = 0.01;  ///< rms grain velocity that counts as rest [m/s]
-  double lid_pressure_weight =
-      1.0;  ///< load on the lid while it presses, in grain weights; 0: the lid is only placed
-  double lid_time = 0.3;      ///< how long it presses [s]
-  double settle_time = 0.1;   ///< rest after the lid is raised [s]
-  double settle_step = 2e-4;  ///< h of that rest [s]
-  double gravity = 0.0;  ///< magnitude while depositing [m/s^2]; 0: the scene's. One packing then
-                         ///< serves drives under several g
-  std::string solver =
-      "nncg";               ///< its own, so that drives by several solvers start from one packing
+  double lid_pressure_weight = 1.0;  ///< on the lid, in grain weights; 0: it is only placed
+  double lid_time = 0.3;             ///< how long it presses [s]
+  double settle_time = 0.1;          ///< rest after the lid is raised [s]
+  double settle_step = 2e-4;         ///< h of that rest [s]
+  /// Magnitude while depositing [m/s^2]; 0: the scene's. One packing then serves drives under
+  /// several g, and under several solvers, since the deposit has its own.
+  double gravity = 0.0;
+  std::string solver = "nncg";
   double tolerance = 1e-2;  ///< natural map rms, in g h
   int max_iterations = 200;
 };
@@ -123,8 +123,9 @@ struct DriveSpec {
   double f_min_over_weight = 0.0;
   double wall_mass_over_grains = 0.5;  ///< m_w / m
   double lid_raise = 0.01;             ///< [m]
-  double start_noise = 0.0;  ///< every grain's centre is moved by up to this along each axis [m]:
-                             ///< runs that differ in nothing else show the floor of chaos
+  /// Every grain's centre is moved by up to this along each axis [m]: runs that differ in nothing
+  /// else show the floor of chaos.
+  double start_noise = 0.0;
   std::uint64_t start_noise_seed = 1;
 };
 
@@ -160,9 +161,8 @@ struct CorrectionSpec {
 };
 
 struct RecordSpec {
-  double pose_rate = 100.0;  ///< poses stored per simulated second
-  double state_rate =
-      0.0;  ///< whole states (with contacts and impulses) kept per simulated second; 0: none
+  double pose_rate = 100.0;        ///< poses stored per simulated second
+  double state_rate = 0.0;         ///< whole states (contacts, impulses) kept per simulated second
   double checkpoint_seconds = 20;  ///< wall clock between checkpoints
   bool forces = false;             ///< contact forces in the record, at pose_rate
 };
@@ -183,8 +183,8 @@ struct Scene {
   double restitution = 0.0;
   std::vector<WallSpec> walls;
   std::vector<BodySpec> bodies;
-  std::optional<GrainsSpec>
-      grains;  ///< with it: box, deposit and drive hold, and walls and bodies must be empty
+  /// With it: box, deposit and drive hold, and walls and bodies must be empty.
+  std::optional<GrainsSpec> grains;
   BoxSpec box;
   DepositSpec deposit;
   DriveSpec drive;

@@ -24,10 +24,6 @@ struct ResolvedScene {
 ResolvedScene resolve_scene(const std::filesystem::path& file,
                             std::span<const std::string> overrides = {});
 
-/// Its text alone.
-std::string resolved_scene_text(const std::filesystem::path& file,
-                                std::span<const std::string> overrides = {});
-
 /// contact.friction of a scene whose mesh files may be gone.
 double scene_friction(const std::filesystem::path& file);
 

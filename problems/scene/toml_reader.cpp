@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <optional>
 #include <sstream>
 #include <type_traits>
 
@@ -15,63 +14,11 @@ namespace ballast {
 namespace {
 
 constexpr const char* override_source = "--set";
-constexpr size_t shown_value = 60;   // characters of a value in an error message
+constexpr size_t shown_value = 63;   // characters of " = value" in an error message
 constexpr size_t most_dots = 1'000;  // in a line
 
-/// Shortest digits that read back to the same bits.
-std::string shortest_digits(double x) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, x).ptr};
-}
-
-// Writing.
-
-/// With a point or an exponent, so that it stays a float.
-std::string float_text(double x) {
-  if (std::isnan(x)) return "nan";
-  if (std::isinf(x)) return x > 0 ? "inf" : "-inf";
-  std::string text = shortest_digits(x);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
-std::string string_text(const std::string& s) {
-  std::string text = "\"";
-  for (const char c : s) {
-    if (c == '"' || c == '\\') {
-      text += '\\';
-      text += c;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      text += printed("\\u%04X", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    } else {
-      text += c;
-    }
-  }
-  return text + '"';
-}
-
 std::string key_text(std::string_view key) {
-  return is_plain(key, "_-") ? std::string(key) : string_text(std::string(key));
-}
-
-std::string inline_text(const toml::node& node) {
-  if (const auto* value = node.as_floating_point()) return float_text(value->get());
-  if (const auto* value = node.as_integer()) return std::to_string(value->get());
-  if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
-  if (const auto* value = node.as_string()) return string_text(value->get());
-  std::string text;
-  if (const auto* array = node.as_array()) {
-    for (const toml::node& element : *array) add_to_list(text, inline_text(element));
-    return "[" + text + "]";
-  }
-  if (const auto* table = node.as_table()) {
-    for (const auto& [key, value] : *table)
-      add_to_list(text, key_text(key.str()) + " = " + inline_text(value));
-    return "{" + text + "}";
-  }
-  std::ostringstream date;  // dates and times: in no scene, but a wrong type must be printable
-  node.visit([&](const auto& value) { date << value; });
-  return date.str();
+  return is_plain(key, "_-") ? std::string(key) : toml_value_text(toml::value<std::string>(key));
 }
 
 bool is_array_of_tables(const toml::node& node) {
@@ -86,7 +33,7 @@ void write_table(const toml::table& table, const std::string& path, std::string&
   };
   for (const auto& [key, value] : table)
     if (!value.is_table() && !is_array_of_tables(value))
-      out += key_text(key.str()) + " = " + inline_text(value) + '\n';
+      out += key_text(key.str()) + " = " + toml_value_text(value) + '\n';
   for (const auto& [key, value] : table) {
     const auto* child = value.as_table();
     if (!child) continue;
@@ -162,6 +109,26 @@ std::string take(const toml::node& node, const ValueRule&, std::vector<std::stri
   return "";
 }
 
+/// "a number > 0", "true or false", ...: what is expected, without its unit.
+template <class Value>
+std::string expected_text(const Value&, const ValueRule& rule) {
+  if constexpr (std::is_same_v<Value, double>) {
+    return rule.range.words;
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    return "true or false";
+  } else if constexpr (std::is_integral_v<Value>) {
+    if (rule.high == std::numeric_limits<std::int64_t>::max())
+      return "a whole number >= " + std::to_string(rule.low);
+    return "a whole number from " + std::to_string(rule.low) + " to " + std::to_string(rule.high);
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    std::string text;
+    for (const char* word : rule.words) add_to_list(text, '"' + std::string(word) + '"');
+    return rule.words.empty() ? "a text" : "one of " + text;
+  } else {
+    return std::is_same_v<Value, Vec3> ? "three finite numbers" : "a list of texts";
+  }
+}
+
 // Overrides.
 
 constexpr const char* too_deep = "more than 1000 dots in a line";
@@ -180,75 +147,50 @@ std::optional<long> line_too_deep(std::string_view text) {
   return std::nullopt;
 }
 
-struct Override {
-  std::vector<std::string> path;
-  std::string text;   ///< as given, for messages
-  toml::table value;  ///< under the key "value"
-};
-
-[[noreturn]] void fail(const std::filesystem::path& file, const Override& o,
-                       const std::string& what) {
-  const std::string first_line = o.text.substr(0, o.text.find_first_of("\r\n"));
-  throw SceneFileError(file.string() + " (--set): " + first_line + ": " + what);
-}
-
-toml::table parse_value(const std::filesystem::path& file, const Override& o,
-                        const std::string& value) {
-  if (value.find_first_of("\r\n") != std::string::npos) fail(file, o, "a value is one line");
+/// Applies "dotted.key=value". The value is moved into the tree: a copied node forgets its source,
+/// by which errors say that an override is to blame.
+void apply(const std::filesystem::path& file, const std::string& text, toml::table& root) {
+  const auto fail = [&](const std::string& what) {
+    const std::string first_line = text.substr(0, text.find_first_of("\r\n"));
+    throw SceneFileError(file.string() + " (--set): " + first_line + ": " + what);
+  };
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos) fail("expected dotted.key=value");
+  const std::vector<std::string> path = split(text.substr(0, equals), '.');
+  if (std::find(path.begin(), path.end(), "") != path.end())
+    fail("empty part in the key, expected dotted.key=value");
+  if (line_too_deep(text)) fail(too_deep);
+  if (text.find_first_of("\r\n") != std::string::npos) fail("a value is one line");
+  const std::string value = text.substr(equals + 1);
+  toml::table given;
   try {
-    return toml::parse("value = " + value, std::string_view(override_source));
+    given = toml::parse("value = " + value, std::string_view(override_source));
   } catch (const toml::parse_error& error) {
     // a bare word, where no TOML was meant
     if (value.empty() || value.find_first_of("\"'[{\\") != std::string::npos)
-      fail(file, o, "not a TOML value: " + std::string(error.description()));
-    return toml::parse("value = \"" + value + "\"", std::string_view(override_source));
+      fail("not a TOML value: " + std::string(error.description()));
+    given = toml::parse("value = \"" + value + "\"", std::string_view(override_source));
   }
-}
-
-Override parse_override(const std::filesystem::path& file, const std::string& text) {
-  Override o;
-  o.text = text;
-  const size_t equals = text.find('=');
-  if (equals == std::string::npos) fail(file, o, "expected dotted.key=value");
-  o.path = split(text.substr(0, equals), '.');
-  for (const std::string& part : o.path)
-    if (part.empty()) fail(file, o, "empty part in the key, expected dotted.key=value");
-  if (const auto line = line_too_deep(text)) fail(file, o, too_deep);
-  o.value = parse_value(file, o, text.substr(equals + 1));
-  return o;
-}
-
-toml::table& element(const std::filesystem::path& file, const Override& o, toml::array& array,
-                     const std::string& index) {
-  const std::string range = "expected an index below " + std::to_string(array.size());
-  const bool digits =
-      index.find_first_not_of("0123456789") == std::string::npos && index.size() < 10;
-  const size_t i = digits ? std::stoul(index) : array.size();
-  if (i >= array.size()) fail(file, o, "no element " + index + " there, " + range);
-  if (!array[i].is_table()) fail(file, o, "element " + index + " is not a table");
-  return *array[i].as_table();
-}
-
-/// Values are moved into the tree: a copied node forgets its source, by which errors say that an
-/// override is to blame.
-void apply(const std::filesystem::path& file, Override o, toml::table& root) {
   // down to the table that holds the last key; tables that are missing are made
   toml::table* table = &root;
-  for (size_t k = 0; k + 1 < o.path.size(); ++k) {
-    toml::node* node = table->get(o.path[k]);
-    if (!node) node = &table->insert(o.path[k], toml::table{}).first->second;
+  for (size_t k = 0; k + 1 < path.size(); ++k) {
+    toml::node* node = table->get(path[k]);
+    if (!node) node = &table->insert(path[k], toml::table{}).first->second;
     // After the name of a list a number says which of its tables: body.0.mass.
     if (toml::array* array = node->as_array()) {
-      table = &element(file, o, *array, o.path[++k]);
-      if (k + 1 == o.path.size()) fail(file, o, "expected a key after the index");
-    } else if (node->is_table()) {
-      table = node->as_table();
-    } else {
-      fail(file, o, o.path[k] + " is not a table");
+      node = array->get(parsed<size_t>(path[++k]).value_or(array->size()));
+      if (!node)
+        fail("no element " + path[k] + " there, expected an index below " +
+             std::to_string(array->size()));
+      if (!node->is_table()) fail("element " + path[k] + " is not a table");
+      if (k + 1 == path.size()) fail("expected a key after the index");
+    } else if (!node->is_table()) {
+      fail(path[k] + " is not a table");
     }
+    table = node->as_table();
   }
-  o.value.get("value")->visit(
-      [&](auto& value) { table->insert_or_assign(o.path.back(), std::move(value)); });
+  given.get("value")->visit(
+      [&](auto& own) { table->insert_or_assign(path.back(), std::move(own)); });
 }
 
 }  // namespace
@@ -258,80 +200,37 @@ bool NumberRange::contains(double x) const {
   return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
 }
 
-std::string expected_text(ValuePlace place, const ValueRule& rule) {
-  const auto words = [&](auto* value) -> std::string {
-    using Value = std::remove_pointer_t<decltype(value)>;
-    if constexpr (std::is_same_v<Value, double>) {
-      return rule.range.words;
-    } else if constexpr (std::is_same_v<Value, bool>) {
-      return "true or false";
-    } else if constexpr (std::is_integral_v<Value>) {
-      if (rule.high == std::numeric_limits<std::int64_t>::max())
-        return "a whole number >= " + std::to_string(rule.low);
-      return "a whole number from " + std::to_string(rule.low) + " to " + std::to_string(rule.high);
-    } else if constexpr (std::is_same_v<Value, std::string>) {
-      std::string text;
-      for (const char* word : rule.words) add_to_list(text, '"' + std::string(word) + '"');
-      return rule.words.empty() ? "a text" : "one of " + text;
-    } else {
-      return std::is_same_v<Value, Vec3> ? "three finite numbers" : "a list of texts";
-    }
-  };
-  return std::visit(words, place);
-}
-
-std::string kept_text(ValuePlace place) {
-  // A number as one writes it: 5, and an exponent without zeros, 2e-4.
-  const auto digits_of = [](double value) {
-    std::string text = shortest_digits(value);
-    if (const size_t zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
-    if (const size_t plus = text.find("e+"); plus != std::string::npos) text.erase(plus + 1, 1);
-    return text;
-  };
-  if (const auto* vector = std::get_if<Vec3*>(&place)) {
-    const Vec3& v = **vector;
-    return '[' + digits_of(v.x()) + ", " + digits_of(v.y()) + ", " + digits_of(v.z()) + ']';
-  }
-  if (const auto* number = std::get_if<double*>(&place)) return digits_of(**number);
-  toml::array one;
-  std::visit([&](auto* value) { one.push_back(as_toml(*value)); }, place);
-  return inline_text(one[0]);
-}
-
 TomlTable::TomlTable(std::string file, const toml::table& table, toml::table& resolved,
                      std::string path)
     : file_(std::move(file)), path_(std::move(path)), table_(&table), resolved_(&resolved) {}
 
-void TomlTable::read(std::string_view key, const ValueRule& rule, bool is_required,
-                     ValuePlace place) {
-  const std::string unit = *rule.unit ? std::string(" [") + rule.unit + "]" : "";
-  const std::string expected = ", expected " + expected_text(place, rule) + unit;
+void TomlTable::read(std::string_view key, ValuePlace place, const ValueRule& rule,
+                     Presence presence) {
   const toml::node* node = find(key);
-  if (!node && is_required)
-    throw SceneFileError(place_of(table_) + ": " + full_key(key) + " is missing" + expected);
-  // Given or not, the value goes into the resolved scene, which says what the run was made with.
-  const auto keep = [&](auto* value) {
+  const auto read_into = [&](auto* value) {
+    const std::string unit = *rule.unit ? std::string(" [") + rule.unit + "]" : "";
+    const std::string expected = ", expected " + expected_text(*value, rule) + unit;
+    if (!node && presence == Presence::required)
+      throw SceneFileError(place_of(table_) + ": " + full_key(key) + " is missing" + expected);
+    const auto by_default = *value;
     const std::string wrong = node ? take(*node, rule, *value) : "";
     if (!wrong.empty()) fail(key, wrong + expected);
-    resolved_->insert_or_assign(key, as_toml(*value));
+    // Given or not, the value goes into the resolved scene, which says what the run was made with.
+    if (presence != Presence::only_where_given || *value != by_default)
+      resolved_->insert_or_assign(key, as_toml(*value));
   };
-  std::visit(keep, place);
+  std::visit(read_into, place);
 }
 
-std::string TomlTable::text(std::string_view key) {
-  std::string value;
-  read(key, {}, true, &value);
+std::string TomlTable::text(std::string_view key, std::optional<std::string> fallback) {
+  std::string value = fallback.value_or("");
+  read(key, &value, {}, fallback ? Presence::optional : Presence::required);
   return value;
-}
-
-std::string TomlTable::text(std::string_view key, std::string fallback) {
-  read(key, {}, false, &fallback);
-  return fallback;
 }
 
 std::vector<std::string> TomlTable::texts(std::string_view key) {
   std::vector<std::string> values;
-  read(key, {}, false, &values);
+  read(key, &values);
   return values;
 }
 
@@ -348,10 +247,10 @@ std::vector<TomlTable> TomlTable::sections(std::string_view key) {
   const toml::node* node = find(key);
   if (!node) return tables;
   const auto* read = node->as_array();
-  if (!read) fail(key, "expected a list of tables [[" + full_key(key) + "]]");
+  if (!read || !(read->empty() || is_array_of_tables(*read)))
+    fail(key, "expected a list of tables [[" + full_key(key) + "]]");
   toml::array& kept = *resolved_->insert_or_assign(key, toml::array{}).first->second.as_array();
   for (size_t i = 0; i < read->size(); ++i) {
-    if (!(*read)[i].is_table()) fail(key, "expected a list of tables [[" + full_key(key) + "]]");
     kept.push_back(toml::table{});
     tables.emplace_back(file_, *(*read)[i].as_table(), *kept.back().as_table(),
                         full_key(key) + '.' + std::to_string(i));
@@ -366,24 +265,21 @@ void TomlTable::replace_resolved(std::string_view key, const toml::node& value) 
 void TomlTable::finish() const {
   for (const auto& [key, value] : *table_) {
     const std::string name(key.str());
-    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    if (const std::string meant = did_you_mean(name, known_); !meant.empty())
-      fail(name, "unknown key" + meant);
-    std::vector<std::string> sorted = known_;
-    std::sort(sorted.begin(), sorted.end());
-    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    fail(name, "unknown key, expected one of " + joined(sorted));
+    if (known_.contains(name)) continue;
+    const std::string meant = did_you_mean(name, known_);
+    fail(name, "unknown key" + (meant.empty() ? ", expected one of " + joined(known_) : meant));
   }
 }
 
 void TomlTable::fail(std::string_view key, const std::string& what) const {
   const toml::node* node = table_->get(key);
-  const std::string value = node ? " = " + toml_value_text(*node, shown_value) : "";
+  std::string value = node ? " = " + toml_value_text(*node) : "";
+  if (value.size() > shown_value) value = value.substr(0, shown_value) + "...";
   throw SceneFileError(place_of(node) + ": " + full_key(key) + value + ": " + what);
 }
 
 const toml::node* TomlTable::find(std::string_view key) {
-  known_.emplace_back(key);
+  know(key);
   return table_->get(key);
 }
 
@@ -420,7 +316,7 @@ toml::table load_toml(const std::filesystem::path& file, std::span<const std::st
     throw SceneFileError(file.string() + ':' + std::to_string(error.source().begin.line) +
                          ": not valid TOML: " + std::string(error.description()));
   }
-  for (const std::string& text : overrides) apply(file, parse_override(file, text), table);
+  for (const std::string& text : overrides) apply(file, text, table);
   return table;
 }
 
@@ -430,10 +326,26 @@ std::string toml_text(const toml::table& table) {
   return out.starts_with('\n') ? out.substr(1) : out;
 }
 
-std::string toml_value_text(const toml::node& node, size_t limit) {
-  std::string text = inline_text(node);
-  if (text.size() > limit) text = text.substr(0, limit) + "...";
-  return text;
+std::string toml_value_text(const toml::node& node) {
+  std::string text;
+  if (const auto* array = node.as_array()) {
+    for (const toml::node& element : *array) add_to_list(text, toml_value_text(element));
+    return "[" + text + "]";
+  }
+  if (const auto* table = node.as_table()) {
+    for (const auto& [key, value] : *table)
+      add_to_list(text, key_text(key.str()) + " = " + toml_value_text(value));
+    return "{" + text + "}";
+  }
+  if (const auto* number = node.as_floating_point(); number && std::isfinite(number->get())) {
+    // The shortest digits with the same bits; with a point or an exponent it stays a float.
+    char digits[32];
+    text.assign(digits, std::to_chars(digits, digits + sizeof digits, number->get()).ptr);
+    return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+  }
+  std::ostringstream one;
+  one << toml::toml_formatter(node, toml::format_flags::allow_unicode_strings);
+  return one.str();
 }
 
 }  // namespace ballast

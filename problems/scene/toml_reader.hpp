@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,15 +45,25 @@ struct ValueRule {
   const char* unit = "";                ///< as messages write it, "kg/m^3"; empty: a pure number
   std::vector<const char*> words = {};  ///< one of which a text must be; none: any text
 };
+inline ValueRule in(const NumberRange& range, const char* unit = "") {
+  return {.range = range, .unit = unit};
+}
+inline ValueRule of_unit(const char* unit) { return in(any_number, unit); }
+inline ValueRule whole(int low, int high = 1'000'000'000) { return {.low = low, .high = high}; }
+inline ValueRule one_of(std::vector<const char*> words) { return {.words = std::move(words)}; }
+
+/// Whether a key must be there.
+enum class Presence {
+  optional,  ///< absent: the default
+  required,
+  /// Absent, or what it is by default: not in the resolved table. A scene.toml from before the key
+  /// was there keeps its bytes, and so its run keeps its key.
+  only_where_given
+};
 
 /// Where a value is kept; its type says what stands in the file.
 using ValuePlace = std::variant<double*, int*, std::uint64_t*, bool*, std::string*, Vec3*,
                                 std::vector<std::string>*>;
-
-/// "a number > 0", "true or false", ...: what is expected, without its unit.
-std::string expected_text(ValuePlace place, const ValueRule& rule);
-/// What is kept there, as one would write it into a scene: 2e-4, "pgs", [0, 0, 1].
-std::string kept_text(ValuePlace place);
 
 /// Parses a file and applies overrides "dotted.key=value" (elements of arrays of tables by index:
 /// body.0.mass=2). A value is TOML; a bare word is taken as a string, so that a shell needs no
@@ -62,8 +74,8 @@ toml::table load_toml(const std::filesystem::path& file,
 /// A whole document written in one way only: sorted keys, shortest digits that read back to the
 /// same double. Same table, same text.
 std::string toml_text(const toml::table& table);
-/// One value on one line; longer than `limit` characters it is cut and ends with "...".
-std::string toml_value_text(const toml::node& node, size_t limit = std::string::npos);
+/// One value on one line.
+std::string toml_value_text(const toml::node& node);
 
 class TomlTable {
  public:
@@ -71,18 +83,14 @@ class TomlTable {
   /// root.
   TomlTable(std::string file, const toml::table& table, toml::table& resolved,
             std::string path = "");
-  TomlTable(TomlTable&&) =
-      default;  // not copied: a copy would not know which keys the original was asked for
-  TomlTable& operator=(TomlTable&&) = default;
-
   bool has(std::string_view key) const { return table_->contains(key); }
 
-  /// What is kept in `place` stays when the key is absent, unless it is required. Throws
-  /// SceneFileError: missing, of another type, out of range.
-  void read(std::string_view key, const ValueRule& rule, bool is_required, ValuePlace place);
-  /// A text that must be there, a text, a list of texts that may be empty.
-  std::string text(std::string_view key);
-  std::string text(std::string_view key, std::string fallback);
+  /// What is kept in `place` stays when the key is absent. Throws SceneFileError: missing, of
+  /// another type, out of range; with what was expected.
+  void read(std::string_view key, ValuePlace place, const ValueRule& rule = {},
+            Presence presence = Presence::optional);
+  /// A text, which must be there where nothing stands for it; a list of texts that may be empty.
+  std::string text(std::string_view key, std::optional<std::string> fallback = {});
   std::vector<std::string> texts(std::string_view key);
 
   TomlTable section(std::string_view key);  ///< absent: an empty table, so that all fallbacks hold
@@ -90,13 +98,10 @@ class TomlTable {
 
   /// A key that may stand here although nobody reads it: it is offered when another one is
   /// misspelt.
-  void know(std::string_view key) { known_.emplace_back(key); }
+  void know(std::string_view key) { known_.emplace(key); }
 
   /// What the resolved table shall say instead of what was read (a path made absolute).
   void replace_resolved(std::string_view key, const toml::node& value);
-
-  /// The resolved table is to say nothing of a key that was read.
-  void leave_unsaid(std::string_view key) { resolved_->erase(key); }
 
   /// Every key must have been asked for. Throws SceneFileError with the nearest known key.
   void finish() const;
@@ -111,7 +116,7 @@ class TomlTable {
   std::string file_, path_;
   const toml::table* table_;
   toml::table* resolved_;
-  std::vector<std::string> known_;
+  std::set<std::string> known_;
 };
 
 }  // namespace ballast

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "problems/algebra/root_mean_square.hpp"
+#include "problems/algebra/friction_cone.hpp"
 #include "solvers/backends/backends.hpp"
 #include "solvers/parts/newton_system.hpp"
 #include "solvers/seam/iteration.hpp"

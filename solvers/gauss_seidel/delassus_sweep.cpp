@@ -5,7 +5,6 @@
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
-#include "problems/algebra/root_mean_square.hpp"
 
 namespace ballast {
 

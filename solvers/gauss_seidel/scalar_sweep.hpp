@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "platform/worker_team.hpp"
+#include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "problems/algebra/mass_root.hpp"
-#include "problems/algebra/root_mean_square.hpp"
 #include "solvers/gauss_seidel/contact_sweep.hpp"
 #include "solvers/gauss_seidel/sweep_plan.hpp"
 #include "solvers/parts/one_contact.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "problems/algebra/root_mean_square.hpp"
+#include "problems/algebra/friction_cone.hpp"
 
 namespace ballast {
 

@@ -3,7 +3,6 @@
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/friction_cone.hpp"
-#include "problems/algebra/root_mean_square.hpp"
 
 namespace ballast {
 

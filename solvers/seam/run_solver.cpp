@@ -128,7 +128,7 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
 
 SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start,
                             const Budget& budget) {
-  validate(problem, masses_);
+  problem.validate(&masses_);
   validate_start(problem, start);
   SolverRun run = attempt(solver, problem, std::move(start), budget, budget, true);
   if (budget.fclib) return run;  // its measure alone decides

@@ -11,7 +11,6 @@
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
-#include "problems/files/stored_problem.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -69,7 +68,7 @@ TEST_CASE("A request comes back as the same problem, in both forms") {
   }
   // Where only W is known, it is what bodies' readers get.
   Asked stored;
-  stored.request.problem = to_friction_problem(condensed(a.known.problem));
+  stored.request.problem = condensed(a.known.problem);
   stored.request.start = three_rows(a.known.problem, a.known.r);
   write_request(stored.file, stored.request);
   CHECK_FALSE(read_request(stored.file).problem.has_dynamics);

@@ -47,7 +47,7 @@ TEST_CASE("facts come from the manifest, what it lacks from the scene") {
   write_rows(folder.path(), some_steps());
   folder.write("manifest.json",
                R"({"summary": {"grain_mass_kg": 100, "f_max_N": 7, "step_s": 1}})");
-  std::ofstream(folder.path() / "scene.toml") << resolved_scene_text(find_scene("vibrated_box"));
+  std::ofstream(folder.path() / "scene.toml") << resolve_scene(find_scene("vibrated_box")).text;
   const RunData data = read_run_data(folder.path());
   REQUIRE(data.scene);
   CHECK(data.facts.step == 1.0);

@@ -66,7 +66,7 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
   std::filesystem::create_directories(folder);
   const auto file = find_scene(run.scene);
   const Scene scene = read_scene(file, run.overrides);
-  std::ofstream(folder / "scene.toml") << resolved_scene_text(file, run.overrides);
+  std::ofstream(folder / "scene.toml") << resolve_scene(file, run.overrides).text;
   std::ofstream(folder / "steps.csv") << "not read";
   const std::vector<StepRecord> steps = scaled_record(scene, law);
   Hdf5Writer record(folder / "record.h5", Hdf5Storage::plain);

@@ -19,7 +19,8 @@ struct TwoCubes {
                     cube("upper", 0.1, 3.0, Vec3(0, 0, 0.15 - overlap))};
     if (lower_is_fixed) {
       BodySpec& lower = scene.bodies[0];
-      lower.free_x = lower.free_y = lower.free_z = lower.free_rotation = false;
+      lower.free.fill(false);
+      lower.free_rotation = false;
     }
     system = make_system(scene, state);
     contacts = {{0, 1, 0, Vec3::UnitZ(), Vec3(0, 0, 0.1 - overlap / 2), -overlap}};

@@ -38,21 +38,6 @@ TEST_CASE("the projection satisfies the conditions that define it") {
   }
 }
 
-TEST_CASE("no sampled point of the cone is nearer than the projection") {
-  Random random(12);
-  for (int k = 0; k < 200; ++k) {
-    const double mu = random_mu(random);
-    const Vector3d x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    const double distance = (x - project_cone(x, mu)).norm();
-    for (int sample = 0; sample < 500; ++sample) {
-      const double n = random.uniform(0, 2), t = mu * n * random.uniform(),
-                   angle = random.uniform(0, 6.2831853);
-      REQUIRE((x - Vector3d(n, t * std::cos(angle), t * std::sin(angle))).norm() >=
-              distance - 1e-14);
-    }
-  }
-}
-
 TEST_CASE("Moreau: a point is its projection on the cone minus that of its opposite on the dual") {
   Random random(13);
   for (int k = 0; k < 100000; ++k) {
@@ -63,15 +48,6 @@ TEST_CASE("Moreau: a point is its projection on the cone minus that of its oppos
     const Vector3d d = project_dual_cone(x, mu);
     REQUIRE(d[0] >= mu * std::hypot(d[1], d[2]) * (1 - 1e-14));
   }
-}
-
-TEST_CASE("without friction the cone is a half-line and its dual a half-space") {
-  REQUIRE(project_cone({2, 3, 4}, 0.0) == Vector3d(2, 0, 0));
-  REQUIRE(project_cone({-2, 3, 4}, 0.0) == Vector3d::Zero());
-  REQUIRE(project_cone({-2, 0, 0}, 0.0) == Vector3d::Zero());
-  REQUIRE(project_dual_cone({-2, 3, 4}, 0.0) == Vector3d(0, 3, 4));
-  REQUIRE(project_dual_cone({2, 3, 4}, 0.0) == Vector3d(2, 3, 4));
-  REQUIRE(project_cone(Vector3d::Zero(), 0.7) == Vector3d::Zero());
 }
 
 TEST_CASE("the Jacobian is the derivative wherever there is one") {
@@ -110,4 +86,16 @@ TEST_CASE("the natural map vanishes exactly on the law, for every rho") {
     CHECK(natural_map({2, 1.2, 1.6}, {0, -3, -4}, mu, rho).norm() > 1e-4);  // outside the cone
   }
   CHECK(modified_velocity({1, 3, 4}, 0.5) == Vector3d(3.5, 3, 4));
+}
+
+TEST_CASE("A root mean square is of single values, squares and parts alike; of nothing zero") {
+  RootMeanSquare whole, part, other;
+  CHECK(whole.value() == 0.0);
+  for (const double value : {1.0, -2.0, 4.0}) whole.add(value);
+  part.add_square(1.0);
+  other.add(2.0);
+  other.add_square(16.0);
+  part.add(other);
+  CHECK(part.value() == whole.value());
+  CHECK(whole.value() == Approx(std::sqrt(7.0)));
 }

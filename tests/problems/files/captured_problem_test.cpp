@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "platform/atomic_file.hpp"
 #include "platform/random.hpp"
 #include "tests/problems/files/problem_file_support.hpp"
 
@@ -54,39 +55,20 @@ TEST_CASE("all of a captured problem comes back, bit by bit") {
   CHECK_FALSE(fs::exists(folder / "c.hdf5.tmp"));
   REQUIRE(is_captured(folder / "c.hdf5"));
   const CapturedProblem back = read_captured(folder / "c.hdf5");
-  const DynamicsForm &a = captured.problem.dynamics, &b = back.problem.dynamics;
   CHECK(back.problem.row_begin == captured.problem.row_begin);
-  CHECK(back.problem.friction == captured.problem.friction);
-  CHECK(b.dof_begin == a.dof_begin);
-  CHECK(b.mass == a.mass);
-  CHECK(b.h == a.h);
-  CHECK(b.body_a == a.body_a);
-  CHECK(b.body_b == a.body_b);
-  CHECK(b.v_free == a.v_free);
-  CHECK(b.bias == a.bias);
-  CHECK(back.start == captured.start);
-  CHECK(back.solution == captured.solution);
-  for (const auto member :
-       {&CapturedProblem::h, &CapturedProblem::g, &CapturedProblem::time, &CapturedProblem::wall_x,
-        &CapturedProblem::wall_v, &CapturedProblem::load})
-    CHECK(back.*member == captured.*member);
-  for (const auto list :
-       {&CapturedProblem::gap, &CapturedProblem::frame, &CapturedProblem::position})
-    CHECK(back.*list == captured.*list);
-  CHECK(back.step == 21);
-  CHECK(back.phase == "loading");
-  CHECK(back.key == captured.key);
-  CHECK(back.id_a == captured.id_a);
-  CHECK(back.id_b == captured.id_b);
+  CHECK(back.problem.dynamics.h == captured.problem.dynamics.h);
+  CHECK((back.step == 21 && back.phase == "loading" && back.load == 120.0));
+  CHECK((back.key == captured.key && back.start == captured.start));
+  // Equal contents are equal bytes.
+  write_captured(folder / "again.hdf5", back);
+  CHECK(read_whole_file(folder / "again.hdf5") == read_whole_file(folder / "c.hdf5"));
 }
 
 TEST_CASE("readers of FCLIB find a global problem, and read_problem() the one that was written") {
   const Folder folder;
   const CapturedProblem captured = sample();
   write_captured(folder / "c.hdf5", captured);
-  const auto stored = read_fclib(folder / "c.hdf5");
-  REQUIRE(std::holds_alternative<GlobalProblem>(stored));
-  CHECK(std::get<GlobalProblem>(stored).h.cols() == 3 * captured.problem.contact_count());
+  CHECK(read_fclib(folder / "c.hdf5").row_count() == 3 * captured.problem.contact_count());
   CHECK(read_problem(folder / "c.hdf5").row_begin == captured.problem.row_begin);
 }
 

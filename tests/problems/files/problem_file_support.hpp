@@ -32,7 +32,7 @@ template <typename Read>
 std::string complaint(const fs::path& file, const Read& read) {
   try {
     read(file);
-  } catch (const ProblemFileError& error) {
+  } catch (const Error& error) {
     const std::string text = error.what();
     CHECK(text.rfind(file.string() + ": ", 0) == 0);
     CHECK(text.find('\n') == std::string::npos);

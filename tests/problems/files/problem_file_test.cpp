@@ -82,7 +82,7 @@ TEST_CASE("triplets have the column in p and the row in i; longer arrays than nz
 
 TEST_CASE("a file that cannot be written leaves the old one, and no litter") {
   const Folder folder;
-  CHECK_THROWS_AS(write_problem(folder / "absent" / "p.hdf5", small().problem), ProblemFileError);
+  CHECK_THROWS_AS(write_problem(folder / "absent" / "p.hdf5", small().problem), Error);
   FrictionProblem broken = small().problem;
   write_problem(folder / "p.hdf5", broken);
   broken.friction[0] = -1.0;

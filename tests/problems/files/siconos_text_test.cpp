@@ -1,38 +1,19 @@
-#include "problems/files/siconos_text.hpp"
+// Problems in Siconos' text format.
 
-#include <unistd.h>
-
-#include <fstream>
-
-#include "problems/files/problem_file.hpp"
-#include "tests/catch.hpp"
+#include "tests/problems/files/problem_file_support.hpp"
 
 using namespace ballast;
-namespace fs = std::filesystem;
 
 namespace {
 
-/// One file, gone with the test.
-struct TextFile {
-  fs::path path =
-      fs::temp_directory_path() / ("ballast_text_" + std::to_string(::getpid()) + ".dat");
-  explicit TextFile(const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
-  ~TextFile() { fs::remove(path); }
-};
-
-LocalProblem read_local(const std::string& text) {
-  const TextFile file(text);
-  return std::get<LocalProblem>(read_siconos_text(file.path));
+FrictionProblem read_text(const std::string& text) {
+  const Folder folder;
+  return read_problem(folder.write("p.dat", text));
 }
 
 std::string complaint_of_text(const std::string& text) {
-  const TextFile file(text);
-  try {
-    read_problem(file.path);
-  } catch (const ProblemFileError& error) {
-    return std::string(error.what()).substr(file.path.string().size() + 2);
-  }
-  return "";
+  const Folder folder;
+  return complaint(folder.write("p.dat", text));
 }
 
 /// W is unsymmetric where the layout must show.
@@ -42,15 +23,15 @@ const Eigen::Matrix3d one_contact =
 }  // namespace
 
 TEST_CASE("dense matrices, column by column") {
-  const LocalProblem local =
-      read_local("3\n1\n0\n3\n3\n3\t3\n2 0.26 0\n0.25 3 0\n0 0 4\n-1 0.5 +1e-1\n0.7\n");
-  CHECK((Eigen::MatrixXd(local.w) - one_contact).norm() == 0.0);
-  CHECK(local.q == Eigen::Vector3d(-1, 0.5, 0.1));
-  CHECK(local.mu == std::vector<double>{0.7});
+  const FrictionProblem local =
+      read_text("3\n1\n0\n3\n3\n3\t3\n2 0.26 0\n0.25 3 0\n0 0 4\n-1 0.5 +1e-1\n0.7\n");
+  CHECK((Eigen::MatrixXd(local.delassus.w) - one_contact).norm() == 0.0);
+  CHECK(local.delassus.q == Eigen::Vector3d(-1, 0.5, 0.1));
+  CHECK(local.friction == std::vector<double>{0.7});
 }
 
 TEST_CASE("matrices by blocks, with what may follow the problem") {
-  const LocalProblem local = read_local(
+  const FrictionProblem local = read_text(
       "3 2 1 6 6\n3 2 2\n3 6\n3 6\n4 3\n0 2 3 3\n0 1 1\n"
       "0\n2 0.26 0 0.25 3 0 0 0 4\n"
       "1\n1 2 3 4 5 6 7 8 9\n"
@@ -60,9 +41,9 @@ TEST_CASE("matrices by blocks, with what may follow the problem") {
   expected.topLeftCorner<3, 3>() = one_contact;
   expected.topRightCorner<3, 3>() << 1, 4, 7, 2, 5, 8, 3, 6, 9;
   expected.bottomRightCorner<3, 3>() = 5 * Eigen::Matrix3d::Identity();
-  CHECK((Eigen::MatrixXd(local.w) - expected).norm() == 0.0);
-  CHECK(local.q[3] == -2.0);
-  CHECK(local.mu == std::vector<double>{0.3, 0.4});
+  CHECK((Eigen::MatrixXd(local.delassus.w) - expected).norm() == 0.0);
+  CHECK(local.delassus.q[3] == -2.0);
+  CHECK(local.friction == std::vector<double>{0.3, 0.4});
 }
 
 TEST_CASE("sparse matrices as CSparse prints them") {
@@ -83,10 +64,10 @@ TEST_CASE("sparse matrices as CSparse prints them") {
       "3\n1\n2\n3\n3\n1\n" + version + "triplet: 3-by-3, nzmax: 5 nnz: 5\n" +
       "    0 0 : 2\n    1 0 : 0.26\n    0 1 : 0.25\n    1 1 : 3\n    2 2 : 4\n";
   for (const std::string& matrix : {columns, rows, triplets}) {
-    const LocalProblem local = read_local(matrix + tail);
-    CHECK((Eigen::MatrixXd(local.w) - one_contact).norm() == 0.0);
-    CHECK(local.q == Eigen::Vector3d(-1, 0, 0));
-    CHECK(local.mu == std::vector<double>{0.5});
+    const FrictionProblem local = read_text(matrix + tail);
+    CHECK((Eigen::MatrixXd(local.delassus.w) - one_contact).norm() == 0.0);
+    CHECK(local.delassus.q == Eigen::Vector3d(-1, 0, 0));
+    CHECK(local.friction == std::vector<double>{0.5});
   }
 }
 
@@ -99,8 +80,7 @@ TEST_CASE("a global problem is told by its first matrix") {
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 6; ++i) text += i == j ? "1 " : "0 ";
   text += "\n-4 2 0 0 0 0\n0.5 0 0\n0.6\n";
-  const TextFile file(text);
-  const FrictionProblem problem = read_problem(file.path);
+  const FrictionProblem problem = read_text(text);
   REQUIRE(problem.has_dynamics);
   CHECK(problem.dynamics.body_count() == 1);
   CHECK(problem.dynamics.v_free[0] == Approx(-2.0));
@@ -120,13 +100,12 @@ TEST_CASE("a global problem with as many unknowns as contact rows is not taken f
     return text + "\n";
   };
   const std::string head = "3\n2\n0\n6\n6\n6 6\n" + diagonal("2.0");
-  const TextFile file(head + "0\n6\n6\n6 6\n" + diagonal("1.0") +
-                      "-1 -1 -1 -1 -1 -1\n0 0 0 0 0 0\n0.3 0.4\n");
-  const auto read = read_siconos_text(file.path);
-  REQUIRE(std::holds_alternative<GlobalProblem>(read));
-  CHECK(std::get<GlobalProblem>(read).mu == std::vector<double>{0.3, 0.4});
+  const FrictionProblem global = read_text(head + "0\n6\n6\n6 6\n" + diagonal("1.0") +
+                                           "-1 -1 -1 -1 -1 -1\n0 0 0 0 0 0\n0.3 0.4\n");
+  REQUIRE(global.has_dynamics);
+  CHECK(global.friction == std::vector<double>{0.3, 0.4});
   // The same matrix with a q that begins with 0 is W.
-  CHECK(read_local(head + "0.0 6.0 6.0 0 0 0\n0.3 0.4\n").q[1] == 6.0);
+  CHECK(read_text(head + "0.0 6.0 6.0 0 0 0\n0.3 0.4\n").delassus.q[1] == 6.0);
 }
 
 TEST_CASE("each broken text is refused, with its line") {

@@ -30,7 +30,7 @@ struct Fixture {
       body.velocity = Vec3(random.normal(), random.normal(), random.normal());
       body.spin = Vec3(random.normal(), random.normal(), random.normal());
       if (b == 2) {
-        body.free_y = false;
+        body.free[1] = false;
         body.free_rotation = false;
         body.velocity.y() = 0.0;
         body.spin.setZero();
@@ -80,6 +80,7 @@ TEST_CASE("H v is the relative velocity in the contact frame") {
   REQUIRE(problem.dynamics.dof_count() == 6 + 6 + 2 + 1);
   CHECK(problem.contact_rows(2) == 1);  // a frictionless wall: one row
   CHECK(problem.contact_rows(3) == 3);
+  CHECK((problem.friction[1] == 0.4 && problem.friction[3] == 0.3));  // a wall has its own
   Eigen::VectorXd u;
   free_contact_velocity(problem, u);
   for (int c = 0; c < problem.contact_count(); ++c) {

@@ -12,124 +12,42 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
-using Catch::Contains;
-
-namespace {
-
-struct Given {
-  toml::table table, resolved;
-  TomlTable reader;
-  Given(const char* text) : table(toml::parse(text)), reader("f.toml", table, resolved) {}
-};
-
-/// The value of a key that must be there.
-template <class Value>
-Value required(TomlTable& table, const char* key, const ValueRule& rule = {}) {
-  Value value{};
-  table.read(key, rule, true, &value);
-  return value;
-}
-
-/// Of a key that may be absent.
-template <class Value>
-Value optional(TomlTable& table, const char* key, const ValueRule& rule, Value value) {
-  table.read(key, rule, false, &value);
-  return value;
-}
-
-const ValueRule length{.range = positive, .unit = "m"};
-const ValueRule one_or_two{.words = {"one", "two"}};
-
-}  // namespace
 
 TEST_CASE("what was read, defaults included, is the resolved table") {
-  Given given("a = 1\nname = \"x\"\n[part]\nv = [1, 2, 3]\n");
-  CHECK(required<double>(given.reader, "a", length) == 1.0);
-  CHECK(optional(given.reader, "b", length, 0.5) == 0.5);
-  CHECK(optional(given.reader, "n", {.low = 0, .high = 9}, 7) == 7);
-  CHECK(optional(given.reader, "on", {}, true));
-  CHECK(given.reader.text("name") == "x");
-  CHECK(optional(given.reader, "word", one_or_two, std::string("two")) == "two");
-  CHECK(optional(given.reader, "seed", {}, std::uint64_t{3}) == 3);
-  TomlTable part = given.reader.section("part");
-  CHECK(required<Vec3>(part, "v", length) == Vec3(1, 2, 3));
-  given.reader.finish();
+  const toml::table table = toml::parse("a = 1\nname = \"x\"\nquiet = 7\n[part]\nv = [1, 2, 3]\n");
+  toml::table resolved;
+  TomlTable reader("f.toml", table, resolved);
+  double a = 0.0, b = 0.5;
+  int n = 7, quiet = 7, absent = 3;
+  bool on = true;
+  std::uint64_t seed = 3;
+  std::string word = "two";
+  Vec3 v = Vec3::Zero();
+  reader.read("a", &a, in(positive, "m"), Presence::required);
+  reader.read("b", &b);
+  reader.read("n", &n, whole(0, 9));
+  reader.read("quiet", &quiet, {}, Presence::only_where_given);  // as it is by default
+  reader.read("absent", &absent, {}, Presence::only_where_given);
+  reader.read("on", &on);
+  reader.read("word", &word, one_of({"one", "two"}));
+  reader.read("seed", &seed);
+  CHECK(reader.text("name") == "x");
+  CHECK(reader.texts("list").empty());
+  TomlTable part = reader.section("part");
+  part.read("v", &v);
+  CHECK((a == 1.0 && v == Vec3(1, 2, 3)));
+  reader.finish();
   part.finish();
-  CHECK(toml_text(given.resolved) ==
-        "a = 1.0\nb = 0.5\nn = 7\nname = \"x\"\non = true\nseed = 3\nword = \"two\"\n\n[part]\n"
-        "v = [1.0, 2.0, 3.0]\n");
+  CHECK(toml_text(resolved) ==
+        "a = 1.0\nb = 0.5\nlist = []\nn = 7\nname = \"x\"\non = true\nseed = 3\nword = \"two\"\n\n"
+        "[part]\nv = [1.0, 2.0, 3.0]\n");
 }
 
 TEST_CASE("a range's ends count as it says") {
-  CHECK_FALSE(positive.contains(0.0));
-  CHECK(not_negative.contains(0.0));
-  CHECK(part_of_one.contains(1.0));
-  CHECK_FALSE(part_of_one.contains(0.0));
+  CHECK((!positive.contains(0.0) && not_negative.contains(0.0)));
+  CHECK((!part_of_one.contains(0.0) && part_of_one.contains(1.0)));
   CHECK_FALSE(any_number.contains(std::numeric_limits<double>::infinity()));
-  CHECK_FALSE(any_number.contains(std::numeric_limits<double>::quiet_NaN()));
-}
-
-TEST_CASE("a key that nobody asked for is refused, with the nearest that was") {
-  Given given("frictoin = 1\n");
-  optional(given.reader, "friction", length, 0.4);
-  given.reader.know("fraction");
-  CHECK_THROWS_WITH(given.reader.finish(), Contains("f.toml:1: frictoin = 1: unknown key, did you "
-                                                    "mean \"friction\"?"));
-  Given far("colour = 1\n");
-  optional(far.reader, "b", length, 1.0);
-  far.reader.know("a");
-  CHECK_THROWS_WITH(far.reader.finish(), Contains("unknown key, expected one of a, b"));
-}
-
-TEST_CASE("what is missing or of another type is named with what was expected") {
-  Given given("n = 2.5\nlist = [1]\n[[part]]\nx = 1\n[[part]]\nx = -1\n");
-  CHECK_THROWS_WITH(required<double>(given.reader, "m", {.range = positive, .unit = "kg"}),
-                    Contains("m is missing, expected a number > 0 [kg]"));
-  CHECK_THROWS_WITH(required<int>(given.reader, "n", {.low = 1, .high = 4}),
-                    Contains("f.toml:1: n = 2.5: not a whole number, "
-                             "expected a whole number from 1 to 4"));
-  CHECK_THROWS_WITH(given.reader.texts("list"), Contains("expected a list of texts"));
-  CHECK_THROWS_WITH(required<std::string>(given.reader, "w", one_or_two),
-                    Contains("expected one of \"one\", \"two\""));
-  std::vector<TomlTable> parts = given.reader.sections("part");
-  REQUIRE(parts.size() == 2);
-  CHECK(required<double>(parts[0], "x", length) == 1.0);
-  CHECK_THROWS_WITH(required<double>(parts[1], "x", length),
-                    Contains("f.toml:6: part.1.x = -1: out of range, expected a number > 0 [m]"));
-}
-
-TEST_CASE("a value of every type is told from what it is not, and written as TOML") {
-  Given given(
-      "number = 1.5\nwhole = 1\nflag = true\ntext = \"a\"\nvector = [1, 2, 3]\n"
-      "list = [\"a\"]\nshort = [1, 2]\nendless = [1, 2, inf]\n");
-  double number = 0.5;
-  int whole = 0;
-  std::uint64_t seed = 0;
-  bool flag = false;
-  std::string text;
-  Vec3 vector = Vec3::Zero();
-  std::vector<std::string> list;
-  const std::vector<std::pair<const char*, ValuePlace>> places{
-      {"number", &number}, {"whole", &whole},   {"whole", &seed}, {"flag", &flag},
-      {"text", &text},     {"vector", &vector}, {"list", &list}};
-  const std::vector<std::string> kept{"1.5", "1", "1", "true", "\"a\"", "[1, 2, 3]", "[\"a\"]"};
-  for (size_t k = 0; k < places.size(); ++k) {
-    const auto& [own, place] = places[k];
-    given.reader.read(own, {}, true, place);
-    CHECK(kept_text(place) == kept[k]);
-    // a whole number is a number too; nothing else is of two types
-    for (const char* other : {"number", "whole", "flag", "text", "vector", "list"}) {
-      INFO(own << " from " << other);
-      if (std::string_view(own) == other || (*own == 'n' && *other == 'w')) continue;
-      CHECK_THROWS_WITH(given.reader.read(other, {}, true, place),
-                        Contains("expected " + expected_text(place, {})));
-    }
-  }
-  CHECK_THROWS_WITH(given.reader.read("short", {}, true, &vector), Contains("not a vector"));
-  number = 2e-4;
-  CHECK(kept_text(&number) == "2e-4");
-  CHECK_THROWS_WITH(given.reader.read("endless", {}, true, &vector),
-                    Contains("entry 2 is no finite number"));
+  CHECK_FALSE(any_number.contains(std::nan("")));
 }
 
 TEST_CASE("tables come sorted: keys, then tables, then lists of tables") {
@@ -159,9 +77,11 @@ TEST_CASE("odd keys and texts are quoted, and read back") {
   CHECK(toml_text(toml::parse(text)) == text);
 }
 
-TEST_CASE("a long value is cut") {
-  CHECK(toml_value_text(toml::value<std::string>("abcdefgh"), 5) == "\"abcd...");
-  CHECK(toml_value_text(toml::array{1, 2}, 6) == "[1, 2]");
+TEST_CASE("a long value is cut in messages") {
+  const toml::table table{{"key", std::string(200, 'x')}};
+  toml::table resolved;
+  CHECK_THROWS_WITH(TomlTable("f.toml", table, resolved).fail("key", "wrong"),
+                    Catch::Equals("f.toml: key = \"" + std::string(59, 'x') + "...: wrong"));
 }
 
 TEST_CASE("the resolved text keeps every bit and any text") {
@@ -173,7 +93,7 @@ TEST_CASE("the resolved text keeps every bit and any text") {
                       "duration = 4e-312\ntitle = \"" +
                       title + "\"\n[contact]\nfriction = 3\n");
   const Scene first = read_scene(file);
-  const Scene again = read_scene(folder.write("again.toml", resolved_scene_text(file)));
+  const Scene again = read_scene(folder.write("again.toml", resolve_scene(file).text));
   CHECK(again.step == first.step);
   CHECK(again.title == first.title);
   CHECK(first.title.find('\a') != std::string::npos);
@@ -193,7 +113,7 @@ TEST_CASE("overrides reach every value, and are read as TOML or as a bare word")
   CHECK(scene.walls[0].friction == 0.7);
   CHECK(!scene.correction.enabled);
   CHECK(scene.duration == 2.0);
-  CHECK(resolved_scene_text(file, overrides) != resolved_scene_text(file));
+  CHECK(resolve_scene(file, overrides).text != resolve_scene(file).text);
 
   const Scene grains = read_scene(find_scene("vibrated_box"),
                                   std::vector<std::string>{"grains.distribution.2.size=0.06"});
@@ -210,7 +130,6 @@ TEST_CASE("an override that is wrong is refused and blamed") {
       {"scene.step=", "scene.step=: not a TOML value"},
       {"scene.step=[1", "scene.step=[1: not a TOML value"},
       {"scene.step=1\nduration=2", "one line"},
-      {"scene.step=-1", "scene.step = -1: out of range"},
       {"scene.step=fast", "scene.step = \"fast\": not a number"},
       {"scene.stp=1", "scene.stp = 1: unknown key, did you mean \"step\"?"},
       {"drve.frequency=1", "drve = {frequency = 1}: unknown key, did you mean \"drive\"?"},

@@ -1,7 +1,7 @@
 #include <utility>
 
 #include "problems/algebra/known_solutions.hpp"
-#include "problems/algebra/pile_problems.hpp"
+#include "problems/algebra/made_problems.hpp"
 #include "solvers/backends/backends.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"

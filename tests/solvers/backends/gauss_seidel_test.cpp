@@ -4,7 +4,7 @@
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
-#include "problems/algebra/pile_problems.hpp"
+#include "problems/algebra/made_problems.hpp"
 #include "solvers/backends/backends.hpp"
 #include "solvers/gauss_seidel/any_sweep.hpp"
 #include "solvers/seam/run_solver.hpp"

@@ -1,7 +1,7 @@
 #include "solvers/parts/newton_system.hpp"
 
 #include "problems/algebra/known_solutions.hpp"
-#include "problems/algebra/pile_problems.hpp"
+#include "problems/algebra/made_problems.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
 #include "tests/support/delassus_form.hpp"
