@@ -137,8 +137,8 @@ void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
   const bool by_fclib = row.measure == Measure::fclib;
   row.error = by_fclib ? error.fclib : error.natural_map_rms / scale;
   if (row.reason.empty()) return;
-  run.verdict = by_fclib ? fclib_verdict_of(account.reason, error, row.tolerance)
-                         : verdict_of(account.reason, error, row.tolerance * scale);
+  run.verdict =
+      verdict_of(account.reason, error, by_fclib ? row.tolerance : row.tolerance * scale, by_fclib);
   const std::string words = explained(loaded.problem, run, row.tolerance * scale);
   row.verdict = run.verdict;
   // What the natural map misses is no reason where another measure was asked for.

@@ -6,45 +6,26 @@
 #include <vector>
 
 #include "solvers/backends/backends.hpp"
-#include "solvers/gauss_seidel/sweep_search.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
+#include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
-class GaussSeidel final : public Solver {
+/// How sweeps are accelerated: after each the iterate goes on in a direction made of what the
+/// sweeps before have changed.
+class SearchRule {
  public:
-  explicit GaussSeidel(const SweepVariant& variant) : variant_(variant) {
-    if (!variant_.plain()) sweep_.use_variants();
-  }
-
-  void prepare(const FrictionProblem& problem) override { sweep_.prepare(problem); }
-  void use_team(WorkerTeam* team) override { sweep_.use_team(team); }
-
-  Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
-    // The cost of looking at the error stays below about 15 %.
-    Iteration iteration(budget, {4, 1.25});
-    order_.resize(variant_.plain() ? 0 : problem.contact_count());
-    std::iota(order_.begin(), order_.end(), 0);
-    allow_single(*sweep_, budget);
-    const auto load = [&] { sweep_->load(problem, r); };
-    load();
-    sweep_->store(problem, r);  // impulses that move nothing have been dropped
-    iteration.evaluated(sweep_->error(), r);
-    while (iteration.next()) {
-      if (variant_.plain())
-        sweep_->sweep();
-      else
-        sweep_->sweep_by(variant_, order_);
-      if (iteration.error_due())
-        iteration.evaluated(swept_error(*sweep_, problem, iteration, r, load), r);
-    }
-    return iteration.finish(std::move(r));
-  }
-
- private:
-  SweepVariant variant_;
-  std::vector<int> order_;  ///< of the variants
-  AnySweep sweep_;
+  virtual ~SearchRule() = default;
+  /// A solve begins.
+  virtual void reset() = 0;
+  /// The search begins at the current iterate.
+  virtual void forget() = 0;
+  /// The step before the next sweep. `square`: |d|^2 of what the last one changed; of none before
+  /// the first.
+  virtual SearchStep next(double square) = 0;
+  /// Told at each look [m/s]. True: the search ends, and begins at the iterate.
+  virtual bool see(double error) = 0;
 };
 
 // With r^_k the iterate that sweep k left, and d_k what it changed:
@@ -54,12 +35,12 @@ class GaussSeidel final : public Solver {
 // than the mean factor of |d|^2 over the last sweeps. The law is not a minimisation, and momentum
 // may circle: a search in which |d|^2 grows ends, and after some searches that came to nothing
 // plain sweeps follow for a while.
-class Momentum {
+class Momentum final : public SearchRule {
  public:
-  void forget() { swept_ = 0; }
+  void reset() override { *this = {}; }
+  void forget() override { swept_ = 0; }
 
-  /// `square`: |d|^2 of the last sweep; of none before the first.
-  SearchStep next(double square) {
+  SearchStep next(double square) override {
     ++total_;
     if (++swept_ == 1) return {};
     if (swept_ == 2 || resting_ > 0) {
@@ -83,16 +64,16 @@ class Momentum {
   }
 
   /// Where a quarter more sweeps gained less than a tenth, momentum goes round without end: plain
-  /// sweeps follow, the more the more often that was so.
-  void see(double error) {
+  /// sweeps follow, the more the more often that was so. A search ends by what its sweeps change,
+  /// in next().
+  bool see(double error) override {
     best_ = std::min(best_, error);
-    if (resting_ > 0 || total_ < std::max(first_mark, 5 * mark_ / 4)) return;
+    if (resting_ > 0 || total_ < std::max(first_mark, 5 * mark_ / 4)) return false;
     if (best_ > 0.9 * best_at_mark_) resting_ = ++losses_ * total_ / 4;
     mark_ = total_;
     best_at_mark_ = best_;
+    return false;
   }
-  /// A search ends by what its sweeps change, in next().
-  static constexpr bool begins_anew() { return false; }
 
  private:
   void begin_search(double square) {
@@ -132,12 +113,13 @@ class Momentum {
 //   r^ := sweep(r)
 // The law is not a minimisation, and now and then the search circles: when the error has grown from
 // one look to the next, plain sweeps follow until the one after.
-class FletcherReeves {
+class FletcherReeves final : public SearchRule {
  public:
-  void forget() { begins_ = true; }
+  void reset() override { *this = {}; }
+  void forget() override { begins_ = true; }
 
   /// The first sweep of a search is plain.
-  SearchStep next(double square) {
+  SearchStep next(double square) override {
     if (begins_) last_ = 0.0;
     const bool is_first = begins_ || !accelerates_;
     begins_ = false;
@@ -148,16 +130,147 @@ class FletcherReeves {
     return {.beta = beta, .gain = 1.0};
   }
 
-  void see(double error) {
+  bool see(double error) override {
     accelerates_ = !accelerates_ || error < last_error_;
     last_error_ = error;
+    return !accelerates_;
   }
-  bool begins_anew() const { return !accelerates_; }
 
  private:
   bool begins_ = true, accelerates_ = true;
   double last_ = 0.0;  ///< |d|^2 of the sweep before the last
   double last_error_ = std::numeric_limits<double>::max();
+};
+
+/// When to look at the error of sweeps along a search. The square of what a sweep changes comes for
+/// nothing, and while a solve goes on it stays in one proportion to the square of the error, within
+/// a tenth.
+class SweptChange {
+ public:
+  explicit SweptChange(double aim) : aim_(aim) {}
+
+  /// After a look at the error [m/s].
+  void seen(int sweeps, double square, double error) {
+    next_ = sweeps + apart;
+    enough_ = square * (near * aim_ / error) * (near * aim_ / error);
+  }
+  /// The error is likely to be small enough.
+  bool promises(int sweeps, double square) const { return sweeps >= next_ && square <= enough_; }
+
+ private:
+  static constexpr int apart = 4;  // sweeps between two looks, at least
+  static constexpr double near = 0.97;
+  double aim_, enough_ = -1.0;
+  int next_ = 0;
+};
+
+/// Sweeps may be in single precision from so many iterations on: casting the records takes as long
+/// as a few sweeps in double.
+constexpr int single_pays_from = 16;
+
+/// Sweeps by a variant, or along a search. Only swept iterates, which lie in the cones, are ever
+/// judged or returned.
+class GaussSeidel final : public Solver {
+ public:
+  explicit GaussSeidel(const SweepVariant& variant) : variant_(variant) {
+    if (!variant_.plain()) sweep_.use_variants();
+  }
+  /// `returns_best`: of the iterates that were looked at, where a limit ends a solve; else the
+  /// last. A search may come to iterates far worse than one before.
+  GaussSeidel(std::unique_ptr<SearchRule> rule, bool returns_best)
+      : rule_(std::move(rule)), returns_best_(returns_best) {}
+
+  void prepare(const FrictionProblem& problem) override { sweep_.prepare(problem); }
+  void use_team(WorkerTeam* team) override { sweep_.use_team(team); }
+
+  Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
+    // The cost of looking at the error stays below about 15 %.
+    Iteration iteration(budget, rule_ ? CheckSchedule{8, 1.3, 1.5} : CheckSchedule{4, 1.25});
+    SweptChange change(budget.aim());
+    if (rule_) rule_->reset();
+    order_.resize(variant_.plain() ? 0 : problem.contact_count());
+    std::iota(order_.begin(), order_.end(), 0);
+    // Not in single precision where the budget asks for another measure, which may stop a solve
+    // between two looks of ours.
+    sweep_->allow_single(budget.max_iterations >= single_pays_from && !budget.fclib);
+    load(problem, r);
+    sweep_->store(problem, r);  // impulses that move nothing have been dropped
+    Impulses best(returns_best_ ? problem.row_count() : 0);  // of all looks
+    bool is_best = false;
+    double least = std::numeric_limits<double>::infinity(), square = 0.0;
+    const auto looked = [&](double error) {
+      iteration.evaluated(error, r);
+      if (rule_ && rule_->see(error)) begin_search();
+      is_best = returns_best_ && error < least;
+      if (!is_best) return;
+      least = error;
+      best.swap(r);  // the next look fills r anew
+    };
+    looked(sweep_->error());
+    while (iteration.next()) {
+      square = sweep(square);
+      if (!iteration.error_due() && !(rule_ && change.promises(iteration.count(), square)))
+        continue;
+      const double error = swept_error(problem, iteration, r);
+      looked(error);
+      change.seen(iteration.count(), square, error);
+    }
+    Solved solved = iteration.finish(std::move(is_best ? best : r));
+    if (returns_best_ && !is_best && solved.reason != StopReason::reached_tolerance)
+      go_back(problem, best, solved);
+    return solved;
+  }
+
+ private:
+  void load(const FrictionProblem& problem, const Impulses& r) {
+    sweep_->load(problem, r);
+    if (rule_) begin_search();
+  }
+  void begin_search() {
+    rule_->forget();
+    sweep_->start_search();
+  }
+  /// `square` of the last sweep. Returns that of this one, along a search.
+  double sweep(double square) {
+    if (rule_) return sweep_->sweep_along(rule_->next(square));
+    if (variant_.plain())
+      sweep_->sweep();
+    else
+      sweep_->sweep_by(variant_, order_);
+    return 0.0;
+  }
+
+  /// Stores the iterate in `r` and returns its error [m/s]. An error small enough to stop is
+  /// evaluated once more from the impulses alone, as the judge will: thousands of updates have left
+  /// their rounding in the velocities. Where sweeps were in single precision, the last iterate is
+  /// swept once more in double: what is returned obeys each contact's law to the rounding of
+  /// double.
+  double swept_error(const FrictionProblem& problem, const Iteration& iteration, Impulses& r) {
+    double error = sweep_->error();
+    if (iteration.ends_with(error) && sweep_->finish_in_double()) error = sweep_->error();
+    sweep_->store(problem, r);
+    if (!iteration.reached(error)) return error;
+    load(problem, r);
+    return sweep_->error();
+  }
+
+  /// To the best, swept once more in double: what is returned obeys each contact's law.
+  void go_back(const FrictionProblem& problem, const Impulses& best, Solved& solved) {
+    sweep_->allow_single(false);
+    sweep_->load(problem, best);
+    sweep_->sweep();
+    const double error = sweep_->error();
+    if (error >= solved.own_residual) return;
+    sweep_->store(problem, solved.impulses);
+    solved.own_residual = error;
+    if (!solved.history.empty()) solved.history.back().error = error;
+  }
+
+  SweepVariant variant_;
+  std::vector<int> order_;  ///< of the variants
+  std::unique_ptr<SearchRule> rule_;
+  bool returns_best_ = false;
+  AnySweep sweep_;
 };
 
 /// How many more sweeps a solve will take. Their error falls about like a power of their number,
@@ -190,11 +303,11 @@ std::unique_ptr<Solver> make_gauss_seidel(const SweepVariant& variant) {
 }
 
 std::unique_ptr<Solver> make_nesterov_pgs(bool returns_best) {
-  return std::make_unique<SweepSearch<Momentum>>(returns_best);
+  return std::make_unique<GaussSeidel>(std::make_unique<Momentum>(), returns_best);
 }
 
 std::unique_ptr<Solver> make_nncg() {
-  return std::make_unique<SweepSearch<FletcherReeves>>(/*returns_best=*/false);
+  return std::make_unique<GaussSeidel>(std::make_unique<FletcherReeves>(), /*returns_best=*/false);
 }
 
 std::function<bool(int, double)> slow_sweeps(int least, double most, const Budget& budget) {

@@ -194,13 +194,13 @@ class ProximalNewton final : public Solver {
       sweep(problem, settings_.start_sweeps, course);
     double weight = settings_.first_weight, halved = course.error();
     int failures = 0, halved_at = 0;
-    while (failures < 30 && course.iterations() - halved_at <= patience * budget.max_iterations) {
+    while (failures < 30 && course.count() - halved_at <= patience * budget.max_iterations) {
       const int steps = proximal_step(weight, course);
       if (steps < 0) break;  // the course is over
       // Patience counts from the last time that the best error was halved.
       if (course.error() < 0.5 * halved) {
         halved = course.error();
-        halved_at = course.iterations();
+        halved_at = course.count();
       }
       // An easy step lowers alpha; a failed one raises it and tries another rho.
       if (steps > 0 && steps <= inner_steps) {

@@ -156,8 +156,8 @@ class PyramidLemke final : public Solver {
     Iteration iteration(budget, {std::numeric_limits<int>::max(), 1.0});
     ContactJudge judge;
     Eigen::VectorXd x;
-    moving_.gather(problem, r, x);
-    moving_.scatter(problem, x, r);
+    moving_.gather(r, x);
+    moving_.scatter(x, r);
     iteration.evaluated(judge.judge(problem, r).natural_map_rms, r);
 
     // Pivot by pivot; only the last basis is an answer.
@@ -168,7 +168,7 @@ class PyramidLemke final : public Solver {
       state = lemke_.pivot();
       if (state == LemkeState::solved) {
         z = lemke_.solution();
-        moving_.scatter(problem, impulses(z), r);
+        moving_.scatter(impulses(z), r);
       }
       if (iteration.error_due() || state != LemkeState::running)
         iteration.evaluated(judge.judge(problem, r).natural_map_rms, r);

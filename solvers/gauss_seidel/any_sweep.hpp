@@ -23,11 +23,23 @@ class AnySweep {
 
   /// Chooses, and makes everything that does not depend on the impulses: records, masses, 1/rho. A
   /// problem that has both forms is swept over its bodies.
-  void prepare(const FrictionProblem& problem);
+  void prepare(const FrictionProblem& problem) {
+    if (!problem.has_dynamics) {
+      stored_.prepare(problem);
+      chosen_ = &stored_;
+      return;
+    }
+    plan_.prepare(problem);
+    if (!variants_ && wide_.prepare(problem)) {
+      chosen_ = &wide_;
+      return;
+    }
+    scalar_.prepare(problem);
+    chosen_ = &scalar_;
+  }
 
   ContactSweep& operator*() { return *chosen_; }
   ContactSweep* operator->() { return chosen_; }
-  bool is_wide() const { return chosen_ == &wide_; }
 
  private:
   SweepPlan plan_;

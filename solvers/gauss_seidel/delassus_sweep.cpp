@@ -1,8 +1,5 @@
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 
@@ -16,39 +13,32 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
     for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
       contact_of_row[row] = c;
 
-  // Which contacts W couples: the pattern in blocks, in the order of their first entries.
+  // The contacts that W couples with each, in the order of their first entries, and the blocks.
   block_begin_.assign(1, 0);
   block_contact_.clear();
+  blocks_.clear();
   std::vector<int> slot(contacts, -1);  // of a neighbour in the block row at hand
   for (int c = 0; c < contacts; ++c) {
-    const int first_block = block_begin_.back();
-    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
-      for (SparseRows::InnerIterator entry(w, row); entry; ++entry) {
-        const int other = contact_of_row[entry.col()];
-        if (slot[other] >= first_block) continue;
-        slot[other] = static_cast<int>(block_contact_.size());
-        block_contact_.push_back(other);
-      }
-    block_begin_.push_back(static_cast<int>(block_contact_.size()));
-  }
-  blocks_.assign(9 * block_contact_.size(), 0.0);
-  slot.assign(contacts, -1);
-  for (int c = 0; c < contacts; ++c) {
-    for (int k = block_begin_[c]; k < block_begin_[c + 1]; ++k) slot[block_contact_[k]] = k;
     for (int i = 0; i < problem.contact_rows(c); ++i)
       for (SparseRows::InnerIterator entry(w, problem.row_begin[c] + i); entry; ++entry) {
         const int other = contact_of_row[entry.col()];
+        if (slot[other] < block_begin_.back()) {
+          slot[other] = static_cast<int>(block_contact_.size());
+          block_contact_.push_back(other);
+          blocks_.resize(blocks_.size() + 9, 0.0);
+        }
         const int j = static_cast<int>(entry.col()) - problem.row_begin[other];
         blocks_[9 * slot[other] + 3 * j + i] = entry.value();
       }
+    block_begin_.push_back(static_cast<int>(block_contact_.size()));
   }
 
   // Each contact's own block, in the coordinates in which it is solved.
   std::vector<Eigen::Matrix3d> diagonal;
   delassus_diagonal(problem, diagonal);
   contacts_.assign(contacts, {});
-  q_.assign(3 * contacts, 0.0);
-  r_.assign(3 * contacts, 0.0);
+  q_.setZero(3 * contacts);
+  r_.setZero(3 * contacts);
   for (int c = 0; c < contacts; ++c) {
     make_principal(diagonal[c], problem.friction[c], contacts_[c].local, contacts_[c].turn);
     contacts_[c].lambda_max = largest_eigenvalue(diagonal[c]);
@@ -93,6 +83,19 @@ void DelassusSweep::sweep() {
   }
 }
 
+void DelassusSweep::start_search() {
+  before_ = r_;
+  direction_.setZero(r_.size());
+}
+
+double DelassusSweep::sweep_along(SearchStep step) {
+  const Eigen::VectorXd change = r_ - before_;
+  step.move(change, direction_, r_);
+  before_ = r_;
+  sweep();
+  return (r_ - before_).squaredNorm();
+}
+
 void DelassusSweep::sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) {
   for (const int c : contacts) {
     Contact& contact = contacts_[c];
@@ -124,23 +127,6 @@ double DelassusSweep::error() {
     mean.add(ContactJudge::scaled_natural_map(r, u, contact.local.mu, contact.lambda_max));
   }
   return mean.value();
-}
-
-/// Velocities follow from the impulses.
-Eigen::Index DelassusSweep::save(Eigen::VectorXd& state) const {
-  state = Eigen::Map<const Eigen::VectorXd>(r_.data(), static_cast<Eigen::Index>(r_.size()));
-  return state.size();
-}
-
-void DelassusSweep::restore(const Eigen::VectorXd& state) {
-  std::copy_n(state.data(), r_.size(), r_.data());
-}
-
-void DelassusSweep::impulse_weights(Eigen::VectorXd& weights) const {
-  // lambda |r|^2 is an energy: in this scale impulses of light and heavy contacts can be compared.
-  weights.resize(3 * contacts_.size());
-  for (std::size_t c = 0; c < contacts_.size(); ++c)
-    weights.segment<3>(3 * c).setConstant(std::sqrt(contacts_[c].lambda_max));
 }
 
 }  // namespace ballast

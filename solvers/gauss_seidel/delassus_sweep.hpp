@@ -22,13 +22,10 @@ class DelassusSweep final : public ContactSweep {
   void store(const FrictionProblem& problem, Impulses& r) const override;
   /// In the given order.
   void sweep() override;
+  void start_search() override;
+  double sweep_along(SearchStep step) override;
   void sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) override;
   double error() override;
-  /// The impulses, three per contact: the whole of the iterate.
-  Eigen::Index save(Eigen::VectorXd& state) const override;
-  void restore(const Eigen::VectorXd& state) override;
-  /// sqrt(lambda_max(W_cc)) for each of them.
-  void impulse_weights(Eigen::VectorXd& weights) const override;
 
  private:
   struct Contact {
@@ -41,11 +38,12 @@ class DelassusSweep final : public ContactSweep {
   /// u_c = W_c r + q_c, in the given tangents.
   void velocity(int c, double* u) const;
 
-  std::vector<int> block_begin_;    ///< contacts + 1
-  std::vector<int> block_contact_;  ///< ascending in a row
-  std::vector<double> blocks_;      ///< 3 x 3, column-major; one-row contacts are padded with zeros
-  std::vector<double> q_, r_;       ///< three per contact
+  std::vector<int> block_begin_;  ///< contacts + 1
+  std::vector<int> block_contact_;
+  std::vector<double> blocks_;  ///< 3 x 3, column-major; one-row contacts are padded with zeros
   std::vector<Contact> contacts_;
+  Eigen::VectorXd q_, r_;               ///< three per contact
+  Eigen::VectorXd before_, direction_;  ///< of a search: where the last sweep began
 };
 
 }  // namespace ballast

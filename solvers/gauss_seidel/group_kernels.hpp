@@ -62,6 +62,14 @@ struct WallGroup : RowGroup<Number, 1> {
   int wall_body;             ///< distance of its velocity in bytes
 };
 
+/// One thing for each kind of group.
+template <template <typename> class Of, typename Number>
+struct Kinds {
+  Of<FrictionGroup<Number>> friction;
+  Of<OneRowGroup<Number>> one_row;
+  Of<WallGroup<Number>> wall;
+};
+
 /// The impulses y' of a group's contacts.
 template <typename Number, int Rows>
 struct alignas(64) GroupImpulses {
@@ -95,6 +103,14 @@ struct alignas(8 * sizeof(Number)) BodyRow {
 /// p := m + gain d, x += m, before := x.
 struct SearchStep {
   double beta = 0.0, gain = 0.0, ahead = 0.0;
+
+  /// Moves numbers `x` that the last sweep changed by `change`. `direction`: their p.
+  template <typename Numbers>
+  [[gnu::always_inline]] void move(const Numbers& change, Numbers& direction, Numbers& x) const {
+    const Numbers along = beta * direction + ahead * change;
+    direction = along + gain * change;
+    x = x + along;
+  }
 };
 
 /// Groups that follow each other, their impulses and, for a search, its numbers.
@@ -148,23 +164,15 @@ using MoveBodies = void (*)(int count, SearchStep step, BodyRow<Number>* w, Body
                             BodyRow<Number>* direction);
 
 /// All loops of one kind of numbers.
-struct ExactKernels {
-  ExactLoops<FrictionGroup<double>> friction;
-  ExactLoops<OneRowGroup<double>> one_row;
-  ExactLoops<WallGroup<double>> wall;
-  MoveBodies<double> move_bodies;
-};
-struct SingleKernels {
-  GroupLoops<FrictionGroup<float>> friction;
-  GroupLoops<OneRowGroup<float>> one_row;
-  GroupLoops<WallGroup<float>> wall;
-  MoveBodies<float> move_bodies;
+template <template <typename> class Loops, typename Number>
+struct KernelsOf : Kinds<Loops, Number> {
+  MoveBodies<Number> move_bodies;
 };
 
 struct GroupKernels {
   const char* instruction_set;
-  ExactKernels exact;
-  SingleKernels single;
+  KernelsOf<ExactLoops, double> exact;
+  KernelsOf<GroupLoops, float> single;
 };
 
 /// Of the best instruction set that this processor has.

@@ -69,11 +69,16 @@ struct LaneSums {
   }
 };
 
+/// L^T v of the wall that a group's contacts are on.
+template <typename Group, typename Row>
+BALLAST_INLINE auto& wall_velocity(const Group& k, Row* bodies) {
+  return reinterpret_cast<Row*>(at_offset(bodies, k.wall_body))->w[0];
+}
+
 /// GroupLoops::push
 template <typename V, typename Group>
 void push_loop(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses, int count,
                BodyRow<typename V::Number>* bodies) {
-  using Number = typename V::Number;
   for (int g = 0; g < count; ++g)
     for (int lane = 0; lane < group_lanes; lane += V::width) {
       const Group& k = groups[g];
@@ -84,10 +89,9 @@ void push_loop(const Group* groups, const typename GroupLoops<Group>::Impulses* 
       push(k, lane, r, a, b);
       scatter_bodies(bodies, k.body[0] + lane, a);
       scatter_bodies(bodies, k.body[1] + lane, b);
-      if constexpr (requires { k.wall; }) {
-        Number& w = *reinterpret_cast<Number*>(at_offset(static_cast<void*>(bodies), k.wall_body));
-        for (int i = lane; i < lane + V::width; ++i) w += k.wall[i] * impulses[g].y[0][i];
-      }
+      if constexpr (requires { k.wall; })
+        for (int i = lane; i < lane + V::width; ++i)
+          wall_velocity(k, bodies) += k.wall[i] * impulses[g].y[0][i];
     }
 }
 
@@ -224,11 +228,9 @@ BALLAST_INLINE void load_impulses(const Run& run, int g, SearchStep step, int la
     r[i] = V::load(run.impulses[g].y[i] + lane);
     if constexpr (Search) {
       auto& search = run.search[g];
-      const V change = V::load(search.change[i] + lane);
-      const V along =
-          V::all(step.beta) * V::load(search.direction[i] + lane) + V::all(step.ahead) * change;
-      r[i] = r[i] + along;
-      (along + V::all(step.gain) * change).store(search.direction[i] + lane);
+      V direction = V::load(search.direction[i] + lane);
+      step.move(V::load(search.change[i] + lane), direction, r[i]);
+      direction.store(search.direction[i] + lane);
     }
   }
 }
@@ -321,67 +323,55 @@ BALLAST_INLINE void sweep_friction(const Run* runs, SearchStep step, void* bodie
   }
 }
 
-template <typename V, int K, bool Search, typename Number>
-BALLAST_INLINE double sweep_run(const GroupRun<OneRowGroup<Number>>& run, SearchStep step,
-                                BodyRow<Number>* bodies) {
-  LaneSums<V> sums;
-  for (int i = 0; i < run.count; ++i)
-    for (int lane = 0; lane < group_lanes; lane += V::width) {
-      const int g = run.group(i);
-      const auto& k = run.groups[g];
-      V a[6], b[6], r;
-      load_impulses<Search>(run, g, step, lane, &r);
-      gather_bodies(bodies, k.body[0] + lane, a);
-      gather_bodies(bodies, k.body[1] + lane, b);
-      const V candidate = r - velocity(k, 0, lane, a, b);
-      const V y = keep(static_cast<typename V::Mask>(~at_most(candidate, V::all(0.0))), candidate);
-      const V e = y - r;
-      y.store(run.impulses[g].y[0] + lane);
-      if constexpr (Search) {
-        e.store(run.search[g].change[0] + lane);
-        sums.add(lane, e * e);
-      }
-      push(k, lane, &e, a, b);
-      scatter_bodies(bodies, k.body[0] + lane, a);
-      scatter_bodies(bodies, k.body[1] + lane, b);
-    }
-  return Search ? sums.total() : 0.0;
+/// The impulses of a vector of contacts on a wall, one after the other. In: `y`, what would stop
+/// them if the wall stood still; `r`, the impulses until now. The wall's velocity `w` goes along.
+template <typename V, typename Number = typename V::Number>
+BALLAST_INLINE V solve_on_wall(const Number* wall, V y, V r, Number& w) {
+  alignas(64) Number before[V::width], after[V::width];
+  r.store(before);
+  y.store(after);
+  for (int i = 0; i < V::width; ++i) {
+    const Number candidate = after[i] - wall[i] * w;
+    after[i] = candidate <= 0 ? 0 : candidate;
+    w += wall[i] * (after[i] - before[i]);
+  }
+  return V::load(after);
 }
 
-/// The grains' side in lanes. What the wall adds comes in the order of the lanes.
-template <typename V, int K, bool Search, typename Number>
-BALLAST_INLINE double sweep_run(const GroupRun<WallGroup<Number>>& run, SearchStep step,
-                                BodyRow<Number>* bodies) {
+/// Groups of one row. Of contacts on a wall the grains' side is in lanes; what the wall sees comes
+/// in the order of the lanes, and so does the sum.
+template <typename V, bool Search, typename Group>
+BALLAST_INLINE double sweep_run(const GroupRun<Group>& run, SearchStep step,
+                                BodyRow<typename V::Number>* bodies) {
+  constexpr bool on_wall = requires(Group k) { k.wall; };
+  LaneSums<V> sums;
   double sum = 0.0;
   for (int n = 0; n < run.count; ++n) {
     const int g = run.group(n);
     const auto& k = run.groups[g];
-    Number& w = *reinterpret_cast<Number*>(at_offset(static_cast<void*>(bodies), k.wall_body));
     for (int lane = 0; lane < group_lanes; lane += V::width) {
       V a[6], b[6], r;
       load_impulses<Search>(run, g, step, lane, &r);
       gather_bodies(bodies, k.body[0] + lane, a);
       gather_bodies(bodies, k.body[1] + lane, b);
-      alignas(64) Number without_wall[V::width], before[V::width], after[V::width],
-          change[V::width];
-      (r - velocity(k, 0, lane, a, b)).store(without_wall);
-      r.store(before);
-      for (int i = 0; i < V::width; ++i) {
-        const Number at = k.wall[lane + i], candidate = without_wall[i] - at * w;
-        after[i] = candidate <= 0 ? 0 : candidate;
-        change[i] = after[i] - before[i];
-        w += at * change[i];
-        if constexpr (Search) sum += change[i] * change[i];
-      }
-      const V e = V::load(change);
-      V::load(after).store(run.impulses[g].y[0] + lane);
+      V y = r - velocity(k, 0, lane, a, b);
+      if constexpr (on_wall)
+        y = solve_on_wall(k.wall + lane, y, r, wall_velocity(k, bodies));
+      else
+        y = keep(static_cast<typename V::Mask>(~at_most(y, V::all(0.0))), y);
+      const V e = y - r;
+      y.store(run.impulses[g].y[0] + lane);
       if constexpr (Search) e.store(run.search[g].change[0] + lane);
+      if constexpr (Search && !on_wall) sums.add(lane, e * e);
+      if constexpr (Search && on_wall)
+        for (int i = lane; i < lane + V::width; ++i)
+          sum += run.search[g].change[0][i] * run.search[g].change[0][i];
       push(k, lane, &e, a, b);
       scatter_bodies(bodies, k.body[0] + lane, a);
       scatter_bodies(bodies, k.body[1] + lane, b);
     }
   }
-  return sum;
+  return on_wall ? sum : sums.total();
 }
 
 /// Contacts with friction side by side; of the other kinds one run after the other.
@@ -392,7 +382,7 @@ BALLAST_INLINE void sweep_runs(const GroupRun<Group>* runs, SearchStep step,
     return sweep_friction<V, K, Search>(runs, step, bodies, squares);
   else
     for (int run = 0; run < 2; ++run) {
-      const double square = sweep_run<V, K, Search>(runs[run], step, bodies);
+      const double square = sweep_run<V, Search>(runs[run], step, bodies);
       if constexpr (Search) squares[run] = square;
     }
 }

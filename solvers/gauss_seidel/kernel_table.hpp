@@ -164,9 +164,7 @@ BALLAST_INLINE void contact_velocities(const Group& k, int lane, const BodyRow<d
   gather_bodies(bodies, k.body[1] + lane, b);
   for (int i = 0; i < Group::rows; ++i) moved[i] = velocity(k, i, lane, a, b);
   if constexpr (requires { k.wall; })
-    moved[0] =
-        moved[0] + V::load(k.wall + lane) * V::all(*reinterpret_cast<const double*>(at_offset(
-                                                static_cast<const void*>(bodies), k.wall_body)));
+    moved[0] = moved[0] + wall_velocity(k, bodies) * V::load(k.wall + lane);
 }
 
 /// ExactLoops::error
@@ -209,10 +207,12 @@ constexpr GroupKernels kernels_of(const char* instruction_set) {
   using S = Lanes<float, Bytes>;
   constexpr int d = DoubleVectors, s = SingleVectors;
   return {instruction_set,
-          {exact_loops<D, d, FrictionGroup<double>>, exact_loops<D, d, OneRowGroup<double>>,
-           exact_loops<D, d, WallGroup<double>>, move_bodies<D>},
-          {loops<S, s, FrictionGroup<float>>, loops<S, s, OneRowGroup<float>>,
-           loops<S, s, WallGroup<float>>, move_bodies<S>}};
+          {{exact_loops<D, d, FrictionGroup<double>>, exact_loops<D, d, OneRowGroup<double>>,
+            exact_loops<D, d, WallGroup<double>>},
+           move_bodies<D>},
+          {{loops<S, s, FrictionGroup<float>>, loops<S, s, OneRowGroup<float>>,
+            loops<S, s, WallGroup<float>>},
+           move_bodies<S>}};
 }
 
 }  // namespace ballast

@@ -71,6 +71,7 @@ struct Lanes {
   friend BALLAST_INLINE Lanes operator+(Lanes a, Lanes b) { return {a.x + b.x}; }
   friend BALLAST_INLINE Lanes operator-(Lanes a, Lanes b) { return {a.x - b.x}; }
   friend BALLAST_INLINE Lanes operator*(Lanes a, Lanes b) { return {a.x * b.x}; }
+  friend BALLAST_INLINE Lanes operator*(double a, Lanes b) { return all(a) * b; }
   friend BALLAST_INLINE Lanes operator/(Lanes a, Lanes b) { return {a.x / b.x}; }
 
  private:

@@ -78,12 +78,9 @@ void sweep_records(const Record* records, Impulse* impulses, int count, Velocity
 /// x moves along its search (see SearchStep); a slip root in lane 3 is left alone.
 template <typename Vector>
 BALLAST_INLINE void move_along(SearchStep step, double* x, double* before, double* direction) {
-  Vector &b = *reinterpret_cast<Vector*>(before), &p = *reinterpret_cast<Vector*>(direction);
-  const Vector now = *reinterpret_cast<const Vector*>(x), change = now - b,
-               along = step.beta * p + step.ahead * change;
-  p = along + step.gain * change;
-  b = now + along;
-  *reinterpret_cast<Vector*>(x) = b;
+  Vector now = *reinterpret_cast<const Vector*>(x), &began = *reinterpret_cast<Vector*>(before);
+  step.move(Vector(now - began), *reinterpret_cast<Vector*>(direction), now);
+  *reinterpret_cast<Vector*>(x) = began = now;
 }
 
 BALLAST_FOR_EACH_CPU
@@ -206,17 +203,16 @@ double to_principal(Record& k, double mu, TangentTurn& turn) {
 
 template <typename Task>
 void ScalarSweep::for_parts(const Task& task) {
-  const int interiors = static_cast<int>(plan_.interiors().size()),
-            interfaces = static_cast<int>(plan_.interfaces().size());
-  run_parts(team_, interiors, [&](int k) { task(plan_.interiors()[k], k); });
-  run_parts(team_, interfaces, [&](int k) { task(plan_.interfaces()[k], interiors + k); });
+  const int slabs = plan_.slabs();
+  run_parts(team_, slabs, [&](int k) { task(plan_.parts()[k], k); });
+  run_parts(team_, slabs - 1, [&](int k) { task(plan_.parts()[slabs + k], slabs + k); });
 }
 
 void ScalarSweep::prepare(const FrictionProblem& problem) {
   const std::vector<int>& order = plan_.contacts();
   place_.resize(order.size());
   for (size_t i = 0; i < order.size(); ++i) place_[order[i]] = static_cast<int>(i);
-  part_error_.resize(plan_.interiors().size() + plan_.interfaces().size());
+  part_error_.resize(plan_.parts().size());
   prepare_bodies(problem.dynamics);
   records_.assign(order.size(), {});
   impulses_.resize(order.size());
@@ -331,42 +327,6 @@ double ScalarSweep::error() {
   RootMeanSquare mean;
   for (const RootMeanSquare& part : part_error_) mean.add(part);
   return mean.value();
-}
-
-Eigen::Index ScalarSweep::save(Eigen::VectorXd& state) const {
-  Eigen::Index impulses = 0;
-  for (const Record& k : records_) impulses += k.row_count;
-  state.resize(impulses + width * static_cast<Eigen::Index>(velocity_.size()));
-  double* x = state.data();
-  for (size_t k = 0; k < records_.size(); ++k)
-    x = std::copy_n(impulses_[k].y, records_[k].row_count, x);
-  for (const Velocity& v : velocity_) x = std::copy_n(v.w, width, x);
-  return impulses;
-}
-
-void ScalarSweep::restore(const Eigen::VectorXd& state) {
-  const double* x = state.data();
-  for (size_t k = 0; k < records_.size(); x += records_[k++].row_count)
-    std::copy_n(x, records_[k].row_count, impulses_[k].y);
-  for (Velocity& v : velocity_) {
-    std::copy_n(x, width, v.w);
-    x += width;
-  }
-}
-
-void ScalarSweep::impulse_weights(Eigen::VectorXd& weights) const {
-  // In the records' coordinates a contact's block is diag(W_NN, s1, s2).
-  std::vector<double> roots;
-  for (size_t k = 0; k < records_.size(); ++k) {
-    const PrincipalContact& local = records_[k].local;
-    if (records_[k].row_count == 1)
-      roots.push_back(std::sqrt(lambda_max_[k]));
-    else
-      roots.insert(roots.end(),
-                   {local.inverse_normal > 0.0 ? 1.0 / std::sqrt(local.inverse_normal) : 0.0,
-                    std::sqrt(local.s1), std::sqrt(local.s2)});
-  }
-  weights = Eigen::VectorXd::Map(roots.data(), static_cast<Eigen::Index>(roots.size()));
 }
 
 }  // namespace ballast

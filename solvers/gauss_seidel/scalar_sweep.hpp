@@ -38,9 +38,6 @@ class ScalarSweep final : public ContactSweep {
   double sweep_along(SearchStep step) override;
   void sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) override;
   double error() override;
-  Eigen::Index save(Eigen::VectorXd& state) const override;
-  void restore(const Eigen::VectorXd& state) override;
-  void impulse_weights(Eigen::VectorXd& weights) const override;
 
   static constexpr int width = 8;  ///< numbers of a row: six, and two zeros that fill a register
 
@@ -62,8 +59,8 @@ class ScalarSweep final : public ContactSweep {
   };
 
  private:
-  /// Calls task(part, its number) for the plan's interiors, then for its interfaces; those of a
-  /// kind at the same time.
+  /// Calls task(part, its number) for those of slabs, then for those between; those of a kind
+  /// at the same time.
   template <typename Task>
   void for_parts(const Task& task);
   void prepare_bodies(const DynamicsForm& dynamics);

@@ -4,38 +4,42 @@
 #include <cmath>
 
 namespace ballast {
+namespace {
+
+/// The numbers 0, 1, ... in the order of their keys: those of key k are sorted[begin[k]] to before
+/// sorted[begin[k + 1]], ascending. Keys are 0 .. count - 1.
+void sort_by_key(const std::vector<int>& keys, int count, std::vector<int>& begin,
+                 std::vector<int>& sorted) {
+  begin.assign(count + 1, 0);
+  for (const int key : keys) ++begin[key + 1];
+  for (int key = 0; key < count; ++key) begin[key + 1] += begin[key];
+  sorted.resize(keys.size());
+  for (size_t i = 0; i < keys.size(); ++i) sorted[begin[keys[i]]++] = static_cast<int>(i);
+  // Each begin has been moved to its key's end, where the next key begins.
+  std::shift_right(begin.begin(), begin.end(), 1);
+  begin[0] = 0;
+}
+
+}  // namespace
 
 void SweepPlan::prepare(const FrictionProblem& problem) {
   find_levels(problem.dynamics);
   cut_slabs(problem.dynamics);
-  list_bodies();
+  sort_by_key(slab_, slabs_, body_begin_, bodies_);
   order(problem);
 }
 
 /// Levels from a body at the rim: the last one that a first search reached.
 void SweepPlan::find_levels(const DynamicsForm& dynamics) {
   const int bodies = dynamics.body_count(), contacts = static_cast<int>(dynamics.body_a.size());
-  // The graph of bodies as lists of neighbours: counted, then filled.
-  neighbour_begin_.assign(bodies + 1, 0);
-  const auto moves_both = [&](int c) { return dynamics.body_a[c] >= 0 && dynamics.body_b[c] >= 0; };
-  for (int c = 0; c < contacts; ++c) {
-    if (!moves_both(c)) continue;
-    ++neighbour_begin_[dynamics.body_a[c]];
-    ++neighbour_begin_[dynamics.body_b[c]];
-  }
-  int sum = 0;
-  for (int& begin : neighbour_begin_) {
-    const int count = begin;
-    begin = sum;
-    sum += count;
-  }
-  neighbour_.resize(sum);
-  place_.assign(neighbour_begin_.begin(), neighbour_begin_.end());
-  for (int c = 0; c < contacts; ++c) {
-    if (!moves_both(c)) continue;
-    neighbour_[place_[dynamics.body_a[c]]++] = dynamics.body_b[c];
-    neighbour_[place_[dynamics.body_b[c]]++] = dynamics.body_a[c];
-  }
+  // The graph of bodies as lists of neighbours: the ends of contacts by their bodies, each then
+  // replaced by the contact's other end.
+  ends_.clear();
+  for (int c = 0; c < contacts; ++c)
+    if (dynamics.body_a[c] >= 0 && dynamics.body_b[c] >= 0)
+      ends_.insert(ends_.end(), {dynamics.body_a[c], dynamics.body_b[c]});
+  sort_by_key(ends_, bodies, neighbour_begin_, neighbour_);
+  for (int& end : neighbour_) end = ends_[end ^ 1];
   // Component by component: a search to its rim, and the levels from there.
   level_.assign(bodies, -1);
   queue_.clear();
@@ -105,16 +109,6 @@ void SweepPlan::cut_slabs(const DynamicsForm& dynamics) {
   }
 }
 
-void SweepPlan::list_bodies() {
-  body_begin_.assign(slabs_ + 1, 0);
-  for (const int slab : slab_) ++body_begin_[slab + 1];
-  for (int slab = 0; slab < slabs_; ++slab) body_begin_[slab + 1] += body_begin_[slab];
-  bodies_.resize(slab_.size());
-  place_.assign(body_begin_.begin(), body_begin_.end());
-  for (size_t body = 0; body < slab_.size(); ++body)
-    bodies_[place_[slab_[body]]++] = static_cast<int>(body);
-}
-
 /// How fast each contact opens without impulses, or how fast its gap would have to be closed: the
 /// smaller; zero where it closes or has no gap.
 void SweepPlan::find_openings(const FrictionProblem& problem) {
@@ -145,57 +139,46 @@ int SweepPlan::level_of(double opening) const {
 
 void SweepPlan::order(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
-  const int contacts = problem.contact_count(), groups = 2 * slabs_ - 1;
-  // group: interior of a slab, or (slabs_ + k) the interface of slabs k and k + 1; friction before
-  // one row; then those first that close; then the contact's turn among those of its body
+  const int contacts = problem.contact_count(), parts = 2 * slabs_ - 1;
+  // The part: of a slab, or (slabs_ + k) between the slabs k and k + 1; friction before one row;
+  // then those first that close; then the contact's turn among those of its body
   constexpr int turns = 8, levels = 1 + gap_octaves, keys = levels * turns;
-  // A key for every contact, then a counting sort: contacts of a key keep their order.
+  // A key for every contact: contacts of a key keep their order.
   rank_.assign(dynamics.body_count() + 1, 0);
   key_.resize(contacts);
-  count_.assign(groups * 2 * keys + 1, 0);
   find_openings(problem);
   for (int c = 0; c < contacts; ++c) {
     const int a = dynamics.body_a[c], b = dynamics.body_b[c];
     const int first = a >= 0 ? a : b, second = b >= 0 ? b : a;
-    int group = 0, turn = 0;
+    int part = 0, turn = 0;
     if (first >= 0) {
       const int slab_a = slab_[first], slab_b = slab_[second];
-      group = slab_a == slab_b ? slab_a : slabs_ + std::min(slab_a, slab_b);
+      part = slab_a == slab_b ? slab_a : slabs_ + std::min(slab_a, slab_b);
       // By turns from all bodies: contacts that follow each other seldom share one, and do not
       // wait for each other's velocities.
       turn = rank_[first]++ % turns;
     }
     const int level = level_of(opening_[c]);
-    key_[c] = ((group * 2 + (problem.contact_rows(c) == 1)) * levels + level) * turns + turn;
-    ++count_[key_[c] + 1];
+    key_[c] = ((part * 2 + (problem.contact_rows(c) == 1)) * levels + level) * turns + turn;
   }
-  for (size_t k = 1; k < count_.size(); ++k) count_[k] += count_[k - 1];
-  interiors_.clear();
-  interfaces_.clear();
-  for (int g = 0; g < groups; ++g)
-    (g < slabs_ ? interiors_ : interfaces_)
-        .push_back({count_[g * 2 * keys], count_[(g * 2 + 1) * keys], count_[(g + 1) * 2 * keys]});
-  contacts_.resize(contacts);
-  for (int c = 0; c < contacts; ++c) contacts_[count_[key_[c]]++] = c;
+  sort_by_key(key_, parts * 2 * keys, count_, contacts_);
+  parts_.clear();
+  for (int k = 0; k < parts; ++k)
+    parts_.push_back(
+        {count_[k * 2 * keys], count_[(k * 2 + 1) * keys], count_[(k + 1) * 2 * keys]});
 }
 
-void ContactGroups::begin(int bodies) {
+void ContactGroups::make(std::span<const int> contacts, std::span<const int> body_a,
+                         std::span<const int> body_b, int bodies) {
   lanes_.clear();
   fill_.clear();
   next_.clear();
   last_.assign(bodies, -1);
-}
-
-void ContactGroups::add(std::span<const int> contacts, std::span<const int> body_a,
-                        std::span<const int> body_b) {
-  const int begin = count();
   for (const int c : contacts) {
     const int a = body_a[c], b = body_b[c];
-    // After both bodies' last groups; groups of earlier calls end before `begin`.
-    int group = begin;
-    if (a >= 0) group = std::max(group, last_[a] + 1);
-    if (b >= 0) group = std::max(group, last_[b] + 1);
-    group = first_with_room(group);
+    // After both bodies' last groups.
+    const int group =
+        first_with_room(std::max(a >= 0 ? last_[a] + 1 : 0, b >= 0 ? last_[b] + 1 : 0));
     lanes_[static_cast<size_t>(group) * group_lanes + fill_[group]] = c;
     if (++fill_[group] == group_lanes) next_[group] = group + 1;
     if (a >= 0) last_[a] = group;
@@ -209,19 +192,17 @@ int ContactGroups::first_with_room(int group) {
   // walked, so that a look-up takes nearly constant time however many groups are full.
   int end = group;
   while (end < count() && next_[end] != end) end = next_[end];
-  if (end == count()) append_group();
+  if (end == count()) {
+    lanes_.insert(lanes_.end(), group_lanes, -1);
+    next_.push_back(end);
+    fill_.push_back(0);
+  }
   while (group != end) {
     const int onwards = next_[group];
     next_[group] = end;
     group = onwards;
   }
   return end;
-}
-
-void ContactGroups::append_group() {
-  lanes_.insert(lanes_.end(), group_lanes, -1);
-  next_.push_back(count());
-  fill_.push_back(0);
 }
 
 }  // namespace ballast

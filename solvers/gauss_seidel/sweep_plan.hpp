@@ -31,14 +31,15 @@ class SweepPlan {
   void prepare(const FrictionProblem& problem);
 
   const std::vector<int>& contacts() const { return contacts_; }
-  /// Bodies of a slab, ascending: bodies of no other slab are in interiors()[slab].
+  int slabs() const { return slabs_; }
+  /// Bodies of a slab, ascending: bodies of no other slab are in parts()[slab].
   std::span<const int> bodies(int slab) const {
     return {bodies_.data() + body_begin_[slab],
             static_cast<size_t>(body_begin_[slab + 1] - body_begin_[slab])};
   }
-  /// No two interiors share a body; nor do two interfaces. Interiors first, then interfaces.
-  const std::vector<Part>& interiors() const { return interiors_; }
-  const std::vector<Part>& interfaces() const { return interfaces_; }
+  /// The interiors of slabs, then the interfaces: that of slabs k and k + 1 is parts()[slabs() +
+  /// k]. No two interiors share a body; nor do two interfaces.
+  const std::vector<Part>& parts() const { return parts_; }
 
   /// Bodies of one slab: enough work between two meetings of the threads.
   static constexpr int slab_bodies = 500;
@@ -50,22 +51,22 @@ class SweepPlan {
   void find_levels(const DynamicsForm& dynamics);
   int breadth_first(int root, int level);
   void cut_slabs(const DynamicsForm& dynamics);
-  void list_bodies();
   void find_openings(const FrictionProblem& problem);
   int level_of(double opening) const;
   void order(const FrictionProblem& problem);
+  std::vector<int> ends_;  ///< bodies a and b of each contact between two that move
   std::vector<int> neighbour_begin_, neighbour_;  ///< bodies that share a contact
-  std::vector<int> level_,
-      queue_;  ///< breadth-first distance; contacts join a level to itself or the next
+  /// Breadth-first distance and order; contacts join a level to itself or the next.
+  std::vector<int> level_, queue_;
   int levels_ = 0;
   std::vector<int> slab_;  ///< of each body
   int slabs_ = 1;
   std::vector<int> bodies_, body_begin_;
-  std::vector<int> key_, place_, count_, rank_;
+  std::vector<int> key_, count_, rank_;
   std::vector<double> opening_;  ///< of each contact [m/s]
   double widest_ = 0.0;          ///< the largest of them
   std::vector<int> contacts_;
-  std::vector<Part> interiors_, interfaces_;
+  std::vector<Part> parts_;
 };
 
 /// Contacts in groups that are solved side by side: no two contacts of a group share a body, and
@@ -74,13 +75,11 @@ class SweepPlan {
 /// the contacts and their order alone, never on the width of registers.
 class ContactGroups {
  public:
-  /// Forgets all groups. Bodies are 0 .. bodies - 1.
-  void begin(int bodies);
-
-  /// Appends groups of these contacts. A contact goes into the first group that has a free lane and
-  /// comes after all groups of this call with one of its bodies. `body_a`, `body_b`: of each
-  /// contact, -1: nothing that could be shared.
-  void add(std::span<const int> contacts, std::span<const int> body_a, std::span<const int> body_b);
+  /// Groups of these contacts. A contact goes into the first group that has a free lane and comes
+  /// after all groups with one of its bodies. `body_a`, `body_b`: of each contact, 0 .. bodies - 1;
+  /// -1: nothing that could be shared.
+  void make(std::span<const int> contacts, std::span<const int> body_a, std::span<const int> body_b,
+            int bodies);
 
   int count() const { return static_cast<int>(fill_.size()); }
   /// The contacts in a group's lanes; -1: none.
@@ -90,7 +89,6 @@ class ContactGroups {
 
  private:
   int first_with_room(int group);
-  void append_group();
 
   std::vector<int> lanes_;  ///< group_lanes a group
   std::vector<int> fill_;   ///< contacts of each group

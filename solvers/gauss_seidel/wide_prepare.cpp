@@ -74,18 +74,18 @@ bool WideSweep::sort_bodies(const DynamicsForm& dynamics) {
 /// threads share no line, each part has a zero velocity of its own for what does not move.
 void WideSweep::place_bodies(const DynamicsForm& dynamics) {
   is_shared_.assign(is_wall_.size(), 0);
-  for (const SweepPlan::Part& part : plan_.interfaces())
+  for (const SweepPlan::Part& part : std::span(plan_.parts()).subspan(plan_.slabs()))
     for (int i = part.begin; i < part.end; ++i) {
       const int c = plan_.contacts()[i];
       is_shared_[dynamics.body_a[c]] = is_shared_[dynamics.body_b[c]] = 1;
     }
   row_of_body_.resize(is_wall_.size());
   rows_ = 0;
-  for (size_t slab = 0; slab < interiors_.size(); ++slab) {
-    Part& part = interiors_[slab];
+  for (int slab = 0; slab < plan_.slabs(); ++slab) {
+    Part& part = parts_[slab];
     part.bodies.begin = rows_;
     for (const char shared : {1, 0}) {
-      for (const int body : plan_.bodies(static_cast<int>(slab)))
+      for (const int body : plan_.bodies(slab))
         if (is_shared_[body] == shared) row_of_body_[body] = rows_++;
       if (shared) part.shared = rows_ - part.bodies.begin;
     }
@@ -93,7 +93,7 @@ void WideSweep::place_bodies(const DynamicsForm& dynamics) {
     part.nowhere = rows_++;
     rows_ += elements_apart<BodyRow<float>>();
   }
-  for (Part& part : interfaces_) {
+  for (Part& part : std::span(parts_).subspan(plan_.slabs())) {
     part.nowhere = rows_++;
     rows_ += elements_apart<BodyRow<float>>();
   }
@@ -117,16 +117,13 @@ bool WideSweep::group_contacts(const FrictionProblem& problem) {
   grains(dynamics.body_a, grain_a_);
   grains(dynamics.body_b, grain_b_);
   contacts_ = 0;
-  interiors_.assign(plan_.interiors().size(), {});
-  interfaces_.assign(plan_.interfaces().size(), {});
+  parts_.assign(plan_.parts().size(), {});
   place_bodies(dynamics);
-  for (size_t k = 0; k < interiors_.size(); ++k)
-    if (!group_part(problem, plan_.interiors()[k], interiors_[k])) return false;
-  for (size_t k = 0; k < interfaces_.size(); ++k)
-    if (!group_part(problem, plan_.interfaces()[k], interfaces_[k])) return false;
+  for (size_t k = 0; k < parts_.size(); ++k)
+    if (!group_part(problem, plan_.parts()[k], parts_[k])) return false;
   for_kinds([](auto& kind) { kind.impulses.resize(kind.groups.size()); }, exact_);
   int groups = 0;
-  for_each_part([&](const Part& part) { groups += part.friction.count + part.one_row.count; });
+  for (const Part& part : parts_) groups += part.friction.count + part.one_row.count;
   size_t walls = 0;
   for (const GroupFrame& f : exact_.wall.frames)
     walls += group_lanes - std::count(f.contact, f.contact + group_lanes, -1);
@@ -178,7 +175,7 @@ bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part
     made.wall.count += added.count;
   }
   // Between this part's groups and the next one's.
-  if (!interfaces_.empty())
+  if (plan_.slabs() > 1)
     for_kinds(
         [this]<typename Group>(Kind<Group>& kind) {
           add_empty_groups(kind, elements_apart<GroupImpulses<float, Group::rows>>());
@@ -198,8 +195,7 @@ void WideSweep::add_empty_groups(Kind<Group>& kind, int count) {
 /// Groups of the contacts in chosen_, empty but for the contacts' numbers.
 template <typename Group>
 WideSweep::Range WideSweep::add_groups(Kind<Group>& kind, int nowhere) {
-  grouping_.begin(static_cast<int>(is_wall_.size()));
-  grouping_.add(chosen_, grain_a_, grain_b_);
+  grouping_.make(chosen_, grain_a_, grain_b_, static_cast<int>(is_wall_.size()));
   const Range range{static_cast<int>(kind.groups.size()), grouping_.count()};
   contacts_ += static_cast<int>(chosen_.size());
   add_empty_groups(kind, range.count);

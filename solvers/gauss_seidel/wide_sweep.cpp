@@ -9,12 +9,6 @@
 namespace ballast {
 namespace {
 
-/// Of a group of this kind.
-template <typename Kind>
-constexpr int impulse_numbers(const Kind&) {
-  return sizeof(Kind::Loops::Impulses::y) / sizeof(typename Kind::Loops::Number);
-}
-
 /// Rounding of single precision may be this share of the error.
 constexpr double allowed_share = 1.0 / 30.0;
 
@@ -108,9 +102,9 @@ void WideSweep::push_part(const Part& part) {
 /// interface name them, each would take a hundred nanoseconds and more.
 template <typename Number>
 void WideSweep::fetch_shared(const State<Number>& state, const Part& interface) const {
-  const auto k = static_cast<size_t>(&interface - interfaces_.data());
   constexpr int line = 64;  // bytes
-  for (const Part* slab : {&interiors_[k], &interiors_[k + 1]}) {
+  const Part* lower = &interface - plan_.slabs();
+  for (const Part* slab : {lower, lower + 1}) {
     const char* row = reinterpret_cast<const char*>(state.bodies.data() + slab->bodies.begin);
     for (const char* end = row + slab->shared * sizeof(BodyRow<Number>); row < end; row += line)
       __builtin_prefetch(row, 1);
@@ -170,7 +164,7 @@ void WideSweep::sweep_parts(State<Number>& state, const Kernels& kernels, const 
 /// Interiors first, with the bodies that are theirs; then the interfaces between slabs.
 template <typename Number, typename Kernels>
 double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, const SearchStep* step) {
-  for_pairs(interiors_, [&](std::span<Part> parts) {
+  for_pairs(std::span(parts_).first(plan_.slabs()), [&](std::span<Part> parts) {
     for (const Part& part : parts)
       if (step)
         kernels.move_bodies(part.bodies.count, *step, state.bodies.data() + part.bodies.begin,
@@ -178,12 +172,12 @@ double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, const S
                             state.direction.data() + part.bodies.begin);
     sweep_parts(state, kernels, step, parts);
   });
-  for_pairs(interfaces_, [&](std::span<Part> parts) {
+  for_pairs(std::span(parts_).subspan(plan_.slabs()), [&](std::span<Part> parts) {
     for (const Part& part : parts) fetch_shared(state, part);
     sweep_parts(state, kernels, step, parts);
   });
   double square = 0.0;
-  for_each_part([&square](const Part& part) { square += part.change_square; });
+  for (const Part& part : parts_) square += part.change_square;
   return square;
 }
 
@@ -225,55 +219,8 @@ double WideSweep::error_in_double() {
         exact_, single_, kernels_->exact, part);
   });
   double sum = 0.0;
-  for_each_part([&sum](const Part& part) { sum += part.error_square; });
+  for (const Part& part : parts_) sum += part.error_square;
   return contacts_ > 0 ? std::sqrt(sum / contacts_) : 0.0;
-}
-
-/// Impulses kind by kind, then velocities: restore() reads the same order.
-Eigen::Index WideSweep::save(Eigen::VectorXd& state) const {
-  Eigen::Index size = 0;
-  for_kinds([&](const auto& kind) { size += kind.impulses.size() * impulse_numbers(kind); },
-            exact_);
-  state.resize(size + 8 * static_cast<Eigen::Index>(exact_.bodies.size()));
-  double* x = state.data();
-  for_kinds(
-      [&](const auto& kind) {
-        for (const auto& k : kind.impulses) x = std::copy_n(k.y[0], impulse_numbers(kind), x);
-      },
-      exact_);
-  for (const BodyRow<double>& body : exact_.bodies) x = std::copy_n(body.w, 8, x);
-  return size;
-}
-
-void WideSweep::restore(const Eigen::VectorXd& state) {
-  const double* x = state.data();
-  for_kinds(
-      [&](auto& kind) {
-        for (auto& k : kind.impulses) {
-          std::copy_n(x, impulse_numbers(kind), k.y[0]);
-          x += impulse_numbers(kind);
-        }
-      },
-      exact_);
-  for (BodyRow<double>& body : exact_.bodies) {
-    std::copy_n(x, 8, body.w);
-    x += 8;
-  }
-}
-
-/// In the groups' coordinates W's diagonal is (1, 1, s2).
-void WideSweep::impulse_weights(Eigen::VectorXd& weights) const {
-  std::vector<double> roots;
-  for_kinds(
-      [&](const auto& kind) {
-        for (const auto& k : kind.groups) {
-          roots.insert(roots.end(), std::min(k.rows, 2) * group_lanes, 1.0);
-          if constexpr (requires { k.s2; })
-            for (const double s2 : k.s2) roots.push_back(std::sqrt(s2));
-        }
-      },
-      exact_);
-  weights = Eigen::VectorXd::Map(roots.data(), static_cast<Eigen::Index>(roots.size()));
 }
 
 // Sweeps in single precision, made good in double at every look at the error.
@@ -354,11 +301,11 @@ void WideSweep::settle(Part& part) {
 /// it stands the rms drift of the bodies' velocities.
 bool WideSweep::single_suffices(double error) const {
   double impulses = 0.0, drift = 0.0, bodies = 0.0;
-  for_each_part([&](const Part& part) {
+  for (const Part& part : parts_) {
     impulses += part.impulse_square;
     drift += part.drift_square;
     bodies += part.bodies.count;
-  });
+  }
   const double rounding = single_rounding * std::sqrt(impulses / std::max(1, contacts_));
   return rounding + std::sqrt(drift / bodies) <= allowed_share * error;
 }
@@ -394,10 +341,9 @@ void WideSweep::choose_awake(double error) {
 
 int WideSweep::resting_groups() const {
   int resting = 0;
-  for_each_part([&](const Part& part) {
+  for (const Part& part : parts_)
     for (const Range& range : {part.friction, part.one_row, part.wall})
       resting += in_single_ ? range.count - range.awake : 0;
-  });
   return resting;
 }
 

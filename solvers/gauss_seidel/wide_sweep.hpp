@@ -35,9 +35,6 @@ class WideSweep final : public ContactSweep {
   void start_search() override;
   double sweep_along(SearchStep step) override { return sweep_in_precision(&step); }
   double error() override;
-  Eigen::Index save(Eigen::VectorXd& state) const override;
-  void restore(const Eigen::VectorXd& state) override;
-  void impulse_weights(Eigen::VectorXd& weights) const override;
 
   /// Whether sweeps from the next load() on are in single precision, until finish_in_double() or
   /// until their rounding shows in the error. Loads, stores and errors are in double in any case.
@@ -65,10 +62,7 @@ class WideSweep final : public ContactSweep {
   };
   /// All groups and the iterate, in double or single precision.
   template <typename Number>
-  struct State {
-    Kind<FrictionGroup<Number>> friction;
-    Kind<OneRowGroup<Number>> one_row;
-    Kind<WallGroup<Number>> wall;
+  struct State : Kinds<Kind, Number> {
     /// By row_of_body_; and one row for each part of the plan that never moves.
     std::vector<BodyRow<Number>> bodies, before, direction;
   };
@@ -96,12 +90,6 @@ class WideSweep final : public ContactSweep {
     task(each.one_row...);
     task(each.wall...);
   }
-  /// All parts, always in the same order: sums over them have the same bits whoever made them.
-  template <typename Task>
-  void for_each_part(const Task& task) const {
-    for (const Part& part : interiors_) task(part);
-    for (const Part& part : interfaces_) task(part);
-  }
 
   bool sort_bodies(const DynamicsForm& dynamics);
   void place_bodies(const DynamicsForm& dynamics);
@@ -120,21 +108,21 @@ class WideSweep final : public ContactSweep {
   /// Calls task(part) for the interiors, then for the interfaces; those of a kind at the same time.
   template <typename Number, typename Task>
   void for_parts(const State<Number>& state, const Task& task) {
-    run_parts(team_, static_cast<int>(interiors_.size()),
-              [&](int slab) { task(interiors_[slab]); });
-    run_parts(team_, static_cast<int>(interfaces_.size()), [&](int k) {
-      fetch_shared(state, interfaces_[k]);
-      task(interfaces_[k]);
+    Part* interfaces = parts_.data() + plan_.slabs();
+    run_parts(team_, plan_.slabs(), [&](int slab) { task(parts_[slab]); });
+    run_parts(team_, plan_.slabs() - 1, [&](int k) {
+      fetch_shared(state, interfaces[k]);
+      task(interfaces[k]);
     });
   }
   /// Calls task(parts) for two of `parts` at a time, or for one where threads would wait for work.
   template <typename Task>
-  void for_pairs(std::vector<Part>& parts, const Task& task) {
+  void for_pairs(std::span<Part> parts, const Task& task) {
     const int count = static_cast<int>(parts.size()),
               together = count >= 2 * size_of(team_) ? 2 : 1;
     run_parts(team_, (count + together - 1) / together, [&](int k) {
       const int begin = k * together;
-      task(std::span(parts).subspan(begin, std::min(together, count - begin)));
+      task(parts.subspan(begin, std::min(together, count - begin)));
     });
   }
   template <typename Number>
@@ -172,7 +160,7 @@ class WideSweep final : public ContactSweep {
 
   State<double> exact_;
   std::vector<BodyRow<double>> free_;
-  std::vector<Part> interiors_, interfaces_;
+  std::vector<Part> parts_;  ///< as the plan has them: sums over them are in this order
 
   // In single precision, bodies hold what has changed since the last look, and the velocities that
   // the contacts had then are their biases: rounding is that of the change.

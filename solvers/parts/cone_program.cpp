@@ -90,7 +90,7 @@ Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const 
     if (solved.size() != row_count() || !solved.allFinite()) return;
     answer.x.setZero(moving_.row_count());
     answer.x(row_) = scale_.cwiseProduct(solved);
-    moving_.scatter(problem, answer.x, r);
+    moving_.scatter(answer.x, r);
     operator_.velocity(r, u);
     shift_.improve(operator_, u);
   };

@@ -2,22 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace ballast {
 
-Iteration::Iteration(const Budget& budget, const CheckSchedule& schedule, int patience)
-    : budget_(budget),
-      schedule_(schedule),
-      next_check_(schedule.first),
-      patience_(patience),
-      error_(std::numeric_limits<double>::quiet_NaN()) {}
+std::optional<StopReason> SolveBook::reason_to_stop(double error, bool is_enough,
+                                                    bool is_late) const {
+  // The strongest reason first.
+  if (!std::isfinite(error)) return StopReason::numerical_failure;
+  if (is_enough || reached(error)) return StopReason::reached_tolerance;
+  if (count_ >= budget_.max_iterations) return StopReason::iteration_limit;
+  if (is_late) return StopReason::time_limit;
+  return std::nullopt;
+}
 
-double Iteration::seconds() const { return watch_.seconds() - startup_; }
+Solved SolveBook::closed(Impulses impulses, StopReason reason, double error) {
+  Solved solved;
+  solved.impulses = std::move(impulses);
+  solved.reason = reason;
+  solved.iterations = count_;
+  solved.own_residual = error;
+  solved.startup_seconds = startup_;
+  solved.history = std::move(history_);
+  return solved;
+}
 
 bool Iteration::next() {
-  if (stopped_) return false;
+  if (reason_) return false;
   ++count_;
   return true;
 }
@@ -41,36 +51,14 @@ void Iteration::evaluated(double error, const Impulses& r) {
   while (next_check_ <= count_)
     next_check_ = std::max(next_check_ + 1, static_cast<int>(std::ceil(next_check_ * growth)));
 
-  // Why to stop, the strongest reason first.
-  stopped_ = true;
-  if (!std::isfinite(error))
-    reason_ = StopReason::numerical_failure;
-  else if (is_enough || reached(error))
-    reason_ = StopReason::reached_tolerance;
-  else if (count_ >= budget_.max_iterations)
-    reason_ = StopReason::iteration_limit;
-  else if (out_of_time_ || now >= budget_.max_seconds)
-    reason_ = StopReason::time_limit;
-  else if (count_ - unchanged_since_ >= patience_ ||
-           (budget_.gives_up && budget_.gives_up(count_, error)))
+  reason_ = reason_to_stop(error, is_enough, out_of_time_ || now >= budget_.max_seconds);
+  if (!reason_ && (count_ - unchanged_since_ >= stalled_after ||
+                   (budget_.gives_up && budget_.gives_up(count_, error))))
     reason_ = StopReason::stalled;
-  else
-    stopped_ = false;
-}
-
-Solved Iteration::finish(Impulses impulses) {
-  Solved solved;
-  solved.impulses = std::move(impulses);
-  solved.reason = reason_;
-  solved.iterations = count_;
-  solved.own_residual = error_;
-  solved.startup_seconds = startup_;
-  solved.history = std::move(history_);
-  return solved;
 }
 
 void Course::run(const Part& part) {
-  const int before = iterations_;
+  const int before = count_;
   const double began = seconds();
   Budget left = rest();
   left.keep_history = true;  // its last point is the error that the part came to
@@ -79,14 +67,14 @@ void Course::run(const Part& part) {
   if (error_ == unknown && !done.history.empty()) error_ = done.history.front().error;
   for (const HistoryPoint& point : done.history)
     remember(before + point.iteration, began + point.seconds, point.error);
-  iterations_ += done.iterations;
-  startup_ += done.startup_seconds;
+  spend(done.iterations);
+  add_startup(done.startup_seconds);
   const double error = done.history.empty() ? error_ : done.history.back().error;
   const bool is_enough = done.reason == StopReason::reached_tolerance;
   if (!is_enough && !(error < error_)) return;
   is_enough_ = is_enough_ || is_enough;
   error_ = error;
-  best_at_ = iterations_;
+  best_at_ = count_;
   best_ = std::move(done.impulses);
 }
 
@@ -98,15 +86,16 @@ void Course::run(Solver& solver, const FrictionProblem& problem, int most_iterat
 }
 
 void Course::offer(const Impulses& r, double error) {
+  const double now = seconds();
   // The other measure may be reached where the error is not the smallest.
   const bool is_enough = budget_.fclib && !is_enough_ && budget_.fclib->reached(r, error);
   if (is_enough || ((error < error_ || error_ == unknown) && !is_enough_)) {
     error_ = error;
-    best_at_ = iterations_;
+    best_at_ = count_;
     best_ = r;
   }
   is_enough_ = is_enough_ || is_enough;
-  remember(iterations_, seconds(), error_);
+  remember(count_, now, error_);
 }
 
 /// One point per count of iterations, the last one that was true of it; the errors are of the best.
@@ -119,40 +108,15 @@ void Course::remember(int iterations, double seconds, double error) {
   history_.push_back({iterations, seconds, error});
 }
 
-bool Course::reached() const {
-  return is_enough_ || error_ <= budget_.tolerance * (1.0 - Iteration::margin);
-}
-
-bool Course::over() const {
-  return reached() || !std::isfinite(error_) || iterations_ >= budget_.max_iterations ||
-         seconds() >= budget_.max_seconds;
-}
-
 Budget Course::rest() const {
-  Budget rest = budget_.after(iterations_, seconds());
+  Budget rest = budget_.after(count_, seconds());
   rest.gives_up = {};
   return rest;
 }
 
 Solved Course::finish() {
-  if (history_.empty() || history_.back().iteration != iterations_)
-    remember(iterations_, seconds(), error_);
-  Solved solved;
-  solved.reason = StopReason::stalled;
-  if (!std::isfinite(error_))
-    solved.reason = StopReason::numerical_failure;
-  else if (reached())
-    solved.reason = StopReason::reached_tolerance;
-  else if (iterations_ >= budget_.max_iterations)
-    solved.reason = StopReason::iteration_limit;
-  else if (seconds() >= budget_.max_seconds)
-    solved.reason = StopReason::time_limit;
-  solved.impulses = std::move(best_);
-  solved.iterations = iterations_;
-  solved.own_residual = error_;
-  solved.startup_seconds = startup_;
-  solved.history = std::move(history_);
-  return solved;
+  if (history_.empty() || history_.back().iteration != count_) remember(count_, seconds(), error_);
+  return closed(std::move(best_), end().value_or(StopReason::stalled), error_);
 }
 
 }  // namespace ballast

@@ -18,11 +18,16 @@ struct MovingContacts {
   std::vector<double> lambda_max;  ///< of W_cc, > 0 [1/kg]
   SparseRows w;                    ///< as it is: a stored one may be unsymmetric
   Eigen::VectorXd q;
+  std::vector<int> row;  ///< in the problem, of each row here
+  int problem_rows = 0;
 
   void take(const FrictionProblem& problem);
-  void gather(const FrictionProblem& problem, const Impulses& r, Eigen::VectorXd& x) const;
+  void gather(const Impulses& r, Eigen::VectorXd& x) const { x = r(row); }
   /// Contacts that were not kept become zero.
-  void scatter(const FrictionProblem& problem, const Eigen::VectorXd& x, Impulses& r) const;
+  void scatter(const Eigen::VectorXd& x, Impulses& r) const {
+    r.setZero(problem_rows);
+    r(row) = x;
+  }
 
   int contact_count() const { return static_cast<int>(contact.size()); }
   int row_count() const { return row_begin.back(); }

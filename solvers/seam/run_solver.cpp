@@ -11,6 +11,9 @@
 namespace ballast {
 namespace {
 
+/// `growth` of a judged answer beyond which r is said to grow without bound.
+constexpr double unbounded_growth = 1e8;
+
 /// Empty means zero. Throws InvalidProblem, naming the entry.
 void validate_start(const FrictionProblem& problem, Impulses& start) {
   if (start.size() == 0) start.setZero(problem.row_count());
@@ -43,28 +46,19 @@ std::string what_is_missed(const ContactError& error, double tolerance) {
   return missed("the complementarity of r and u", error.complementarity_rms, bound);
 }
 
-/// `within`: the measure that was asked for is within the tolerance.
-Verdict verdict_from(bool within, StopReason reason, const ContactError& error, double tolerance) {
-  const bool claimed = reason == StopReason::reached_tolerance;
-  if (within) return claimed ? Verdict::solved : Verdict::unsolved;
-  // No impulse helps, or those that were tried have left every scale of the problem.
-  const bool sinks = error.finite && error.immovable_approach > tolerance;
-  const bool grows = error.finite && error.growth > unbounded_growth;
-  if (sinks || grows) return Verdict::no_solution;
-  return claimed ? Verdict::denied : Verdict::unsolved;
-}
-
 }  // namespace
 
-Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance) {
-  return verdict_from(error.within(tolerance), reason, error, tolerance);
-}
-
-Verdict fclib_verdict_of(StopReason reason, const ContactError& error, double tolerance) {
-  const bool within =
-      error.finite && error.fclib <= tolerance && !(error.growth > unbounded_growth);
-  // Its tolerance is a pure number; contacts that sink in are measured in m/s.
-  return verdict_from(within, reason, error, tolerance * error.velocity_scale);
+Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance, bool by_fclib) {
+  const bool claimed = reason == StopReason::reached_tolerance;
+  const bool grows = error.finite && error.growth > unbounded_growth;
+  if (by_fclib ? error.finite && error.fclib <= tolerance && !grows : error.within(tolerance))
+    return claimed ? Verdict::solved : Verdict::unsolved;
+  // No impulse helps, or those that were tried have left every scale of the problem. Siconos'
+  // tolerance is a pure number; contacts that sink in are measured in m/s.
+  const double approach = by_fclib ? tolerance * error.velocity_scale : tolerance;
+  const bool sinks = error.finite && error.immovable_approach > approach;
+  if (sinks || grows) return Verdict::no_solution;
+  return claimed ? Verdict::denied : Verdict::unsolved;
 }
 
 std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance) {
@@ -95,7 +89,6 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
 SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, Impulses start,
                                 const Budget& left, const Budget& asked, bool prepares) {
   SolverRun run;
-  const double begin = processor_seconds();
   try {
     Stopwatch watch;
     if (prepares) solver.prepare(problem);
@@ -113,16 +106,15 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
     run.solved.reason = StopReason::numerical_failure;
     run.failure = error.what();
   }
-  run.processor_seconds = processor_seconds() - begin;
   // A backend that failed may return nothing; no impulses is then what is judged.
   if (run.solved.impulses.size() != problem.row_count()) {
     run.solved.impulses.setZero(problem.row_count());
     run.solved.reason = StopReason::numerical_failure;
   }
   run.error = judge_.judge(problem, run.solved.impulses);
-  run.verdict = asked.fclib
-                    ? fclib_verdict_of(run.solved.reason, run.error, asked.fclib->tolerance())
-                    : verdict_of(run.solved.reason, run.error, asked.tolerance);
+  run.verdict =
+      verdict_of(run.solved.reason, run.error,
+                 asked.fclib ? asked.fclib->tolerance() : asked.tolerance, asked.fclib != nullptr);
   return run;
 }
 
@@ -161,7 +153,6 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
     next.prepare_seconds = run.prepare_seconds;
     next.solve_seconds += run.solve_seconds;
     next.startup_seconds += run.startup_seconds;
-    next.processor_seconds += run.processor_seconds;
     run = std::move(next);
   }
   return run;

@@ -12,25 +12,20 @@ namespace ballast {
 struct SolverRun {
   Solved solved;
   ContactError error;          ///< the judge's, never the backend's
-  double prepare_seconds = 0;  ///< wall clock of prepare() and solve() alone
+  double prepare_seconds = 0;  ///< wall clock of prepare(), and of solve() without its start-up
   double solve_seconds = 0;
-  double startup_seconds = 0;    ///< of solve(), and not in solve_seconds: Solved::startup_seconds
-  double processor_seconds = 0;  ///< of this process in prepare() and solve(), start-up included
+  double startup_seconds = 0;  ///< of solve(): Solved::startup_seconds of all its rounds
   Verdict verdict = Verdict::unsolved;
   std::string failure;  ///< what() of the exception that a backend threw; empty: none
 
   bool is_solved() const { return verdict == Verdict::solved; }
 };
 
-/// `growth` of a judged answer beyond which r is said to grow without bound.
-constexpr double unbounded_growth = 1e8;
-
 /// Of impulses with that error, which a solver returned for that reason under that tolerance [m/s].
-Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance);
-
-/// The same where Siconos' measure (ContactError::fclib) is what was asked for: it alone decides,
-/// but that it divides by |r|, and what grows without bound meets it: that is no solution.
-Verdict fclib_verdict_of(StopReason reason, const ContactError& error, double tolerance);
+/// `by_fclib`: the tolerance is one of Siconos' measure (ContactError::fclib), which alone decides.
+/// But it divides by |r|, so that what grows without bound meets it: that is no solution.
+Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance,
+                   bool by_fclib = false);
 
 /// What came of a run under that tolerance [m/s], in one line: "solved", "the judge denies it: -u_N
 /// is 0.3 m/s (rms), at most 4e-08 may be", "no solution found; r grows without bound: ...". What

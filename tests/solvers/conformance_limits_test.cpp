@@ -16,12 +16,11 @@ TEST_CASE("a backend takes problems up to the size that the register says") {
         (largest.none() ? largest.with_friction == 0 : largest.with_friction <= largest.contacts));
     const Budget nothing{.max_iterations = 0};
     const auto taken = [&](int contacts, int with_friction) {
-      KnownSolutionSettings settings;
-      settings.bodies = contacts;
-      settings.contacts = contacts;
-      settings.friction_min = 0.1;
-      settings.frictionless_fraction = 0.0;
-      FrictionProblem problem = make_known_solution(settings).problem;
+      FrictionProblem problem = make_known_solution({.bodies = contacts,
+                                                     .contacts = contacts,
+                                                     .friction_min = 0.1,
+                                                     .frictionless_fraction = 0.0})
+                                    .problem;
       std::fill(problem.friction.begin() + with_friction, problem.friction.end(), 0.0);
       REQUIRE(contacts_with_friction(problem) == with_friction);
       return run_unless_large(entry, problem, nothing).has_value();

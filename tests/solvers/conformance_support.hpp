@@ -63,13 +63,11 @@ inline SolverRun run_either(const SolverEntry& entry, const FrictionProblem& pro
 
 inline KnownSolution known(int bodies, int contacts, double friction, double mass_ratio,
                            std::uint64_t seed = 1) {
-  KnownSolutionSettings settings;
-  settings.bodies = bodies;
-  settings.contacts = contacts;
-  settings.friction_max = friction;
-  settings.mass_ratio = mass_ratio;
-  settings.seed = seed;
-  return make_known_solution(settings);
+  return make_known_solution({.bodies = bodies,
+                              .contacts = contacts,
+                              .friction_max = friction,
+                              .mass_ratio = mass_ratio,
+                              .seed = seed});
 }
 
 inline const Budget patient{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 20.0};

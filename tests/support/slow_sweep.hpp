@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/gauss_seidel/sweep_plan.hpp"
 #include "solvers/parts/one_contact.hpp"
@@ -43,6 +44,27 @@ void slow_sweep(const FrictionProblem& problem, const Eigen::MatrixXd& w, const 
     solve_one_contact(block, others, problem.friction[c], own, slip);
     r.segment(begin, rows) = own.head(rows);
   }
+}
+
+/// |change|^2 of impulses in a sweep's coordinates. Over bodies: y = r_N + c . r_T in place of r_N;
+/// in groups these are scaled so that W_NN = s1 = 1.
+inline double swept_square(const FrictionProblem& problem, const Impulses& change,
+                           bool in_groups = false) {
+  if (!problem.has_dynamics) return change.squaredNorm();
+  std::vector<Eigen::Matrix3d> blocks;
+  delassus_diagonal(problem, blocks);
+  double sum = 0.0;
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    PrincipalContact local;
+    TangentTurn turn;
+    make_principal(blocks[c], 0.0, local, turn);
+    Eigen::Vector3d d = rows_of_contact(problem, change, c);
+    turn.to_principal(d[1], d[2]);
+    d[0] += local.c1 * d[1] + local.c2 * d[2];
+    sum += in_groups ? d[0] * d[0] / local.inverse_normal + local.s1 * d.tail<2>().squaredNorm()
+                     : d.squaredNorm();
+  }
+  return sum;
 }
 
 }  // namespace ballast

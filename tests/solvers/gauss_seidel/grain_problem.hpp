@@ -25,8 +25,8 @@ class GrainProblem {
   explicit GrainProblem(const GrainSettings& settings) : random_(settings.seed) {
     problem.has_dynamics = true;
     for (int g = 0; g < settings.grains; ++g)
-      add_body(grain_mass(random_.log_uniform(1e-3, 1e-3 * settings.mass_ratio)));
-    if (settings.has_wall) add_body(Eigen::MatrixXd::Constant(1, 1, 0.5));
+      problem.dynamics.add_body(grain_mass(random_.log_uniform(1e-3, 1e-3 * settings.mass_ratio)));
+    if (settings.has_wall) problem.dynamics.add_body(Eigen::MatrixXd::Constant(1, 1, 0.5));
     for (int c = 0; c < settings.contacts; ++c) {
       int a = random_.below(settings.grains), b = a + 1 + random_.below(settings.reach);
       if (b >= settings.grains) b = -1;
@@ -56,34 +56,21 @@ class GrainProblem {
     return mass;
   }
 
-  void add_body(const Eigen::MatrixXd& mass) {
-    DynamicsForm& d = problem.dynamics;
-    d.mass.insert(d.mass.end(), mass.data(), mass.data() + mass.size());
-    d.dof_begin.push_back(d.dof_begin.back() + static_cast<int>(mass.rows()));
-    d.mass_begin.push_back(static_cast<int>(d.mass.size()));
-  }
-
   void add_contact(int a, int b, int rows) {
-    DynamicsForm& d = problem.dynamics;
     Eigen::MatrixXd line(rows, 3);
     for (double& x : line.reshaped()) x = random_.uniform(-1.0, 1.0);
     for (int i = 0; i < rows; ++i) line(i, i) += 2.0;
-    for (const int side : {0, 1}) {
-      const int body = side ? b : a;
-      if (body < 0) continue;
-      Eigen::MatrixXd block(rows, d.body_dofs(body));
-      for (double& x : block.reshaped()) x = random_.uniform(-0.01, 0.01);
-      if (block.cols() == 6)
-        block.leftCols(3) = side ? line : (-line).eval();
+    const auto block = [&](int body, double sign) {
+      Eigen::MatrixXd entries(rows, problem.dynamics.body_dofs(body));
+      for (double& x : entries.reshaped()) x = random_.uniform(-0.01, 0.01);
+      if (entries.cols() == 6)
+        entries.leftCols(3) = sign * line;
       else
-        block.setOnes();
-      d.h.insert(d.h.end(), block.data(), block.data() + block.size());
-    }
-    d.body_a.push_back(a);
-    d.body_b.push_back(b);
-    d.h_begin.push_back(static_cast<int>(d.h.size()));
-    problem.row_begin.push_back(problem.row_begin.back() + rows);
-    problem.friction.push_back(rows == 1 ? 0.0 : random_.uniform(0.1, 0.8));
+        entries.setOnes();
+      return entries;
+    };
+    const Eigen::MatrixXd at_a = block(a, -1.0), at_b = block(b, 1.0);
+    problem.add_contact(a, b, rows == 1 ? 0.0 : random_.uniform(0.1, 0.8), at_a, at_b);
   }
 
   Random random_;
@@ -91,6 +78,11 @@ class GrainProblem {
 
 inline FrictionProblem grain_problem(const GrainSettings& settings = {}) {
   return GrainProblem(settings).problem;
+}
+
+/// The steps of a search before its k-th sweep: none, along the last change, then momentum besides.
+inline SearchStep varied_step(int k) {
+  return {k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0, k < 9 ? 0.0 : 0.4};
 }
 
 /// A wide sweep from zero impulses, in single precision or not.

@@ -10,6 +10,7 @@
 #include "tests/catch.hpp"
 #include "tests/solvers/gauss_seidel/grain_problem.hpp"
 #include "tests/support/fixed_contact.hpp"
+#include "tests/support/slow_sweep.hpp"
 
 using namespace ballast;
 using samples::grain_problem;
@@ -41,11 +42,10 @@ Impulses start_of(const FrictionProblem& problem) {
 std::vector<int> group_order(const SweepPlan& plan, const FrictionProblem& problem) {
   const DynamicsForm& d = problem.dynamics;
   std::vector<int> order = plan.contacts();
-  for (const auto* parts : {&plan.interiors(), &plan.interfaces()})
-    for (const SweepPlan::Part& part : *parts)
-      std::stable_partition(order.begin() + part.begin, order.begin() + part.end, [&](int c) {
-        return d.body_dofs(d.body_a[c]) != 1 && d.body_dofs(d.body_b[c]) != 1;
-      });
+  for (const SweepPlan::Part& part : plan.parts())
+    std::stable_partition(order.begin() + part.begin, order.begin() + part.end, [&](int c) {
+      return d.body_dofs(d.body_a[c]) != 1 && d.body_dofs(d.body_b[c]) != 1;
+    });
   return order;
 }
 
@@ -123,59 +123,57 @@ TEST_CASE("wide: every status of the law is met, and each contact solved to roun
 TEST_CASE("wide: the same bits on every instruction set, with any number of threads") {
   // Three slabs, so that threads have interiors and interfaces.
   const FrictionProblem problem = grain_problem({.grains = 1600, .contacts = 6000, .seed = 5});
-  Impulses expected;
-  double expected_error = 0.0, expected_square = 0.0;
-  for (const GroupKernels* kernels : all_group_kernels())
-    for (const int threads : {1, 2, 3, 8}) {
-      Wide wide(problem, false, *kernels, threads);
-      REQUIRE(wide.fits);
-      REQUIRE(wide.plan.interiors().size() >= 2);
-      Impulses r = start_of(problem);
-      wide.sweep.load(problem, r);
-      wide.sweep.start_search();
-      double square = 0.0;
-      for (const SearchStep step : {SearchStep{0.0, 0.0}, {0.0, 1.0}, {0.7, 1.0}, {0.4, 0.5, 0.3}})
-        square += wide.sweep.sweep_along(step);
-      for (int k = 0; k < 20; ++k) wide.sweep.sweep();
-      wide.sweep.store(problem, r);
-      const double error = wide.sweep.error();
-      if (expected.size() == 0) {
-        expected = r;
-        expected_error = error;
-        expected_square = square;
+  for (const bool single : {false, true}) {
+    Impulses expected;
+    std::vector<double> expected_numbers;
+    for (const GroupKernels* kernels : all_group_kernels())
+      for (const int threads : {1, 2, 3, 8}) {
+        Wide wide(problem, single, *kernels, threads);
+        REQUIRE(wide.fits);
+        REQUIRE(wide.plan.slabs() >= 2);
+        wide.sweep.start_search();
+        std::vector<double> numbers;
+        for (int k = 0; k < 20; ++k) {
+          numbers.push_back(wide.sweep.sweep_along(samples::varied_step(k)));
+          if (k % 5 == 4) numbers.push_back(wide.sweep.error());
+        }
+        for (int k = 0; k < 5; ++k) wide.sweep.sweep();
+        CHECK(wide.sweep.is_single() == single);
+        numbers.push_back(wide.sweep.error());
+        Impulses r;
+        wide.sweep.store(problem, r);
+        if (expected.size() == 0) {
+          expected = r;
+          expected_numbers = numbers;
+        }
+        INFO(kernels->instruction_set << ", single " << single << ", threads " << threads);
+        CHECK(r == expected);
+        CHECK(numbers == expected_numbers);
       }
-      INFO(kernels->instruction_set << ", threads " << threads);
-      CHECK(r == expected);
-      CHECK(error == expected_error);
-      CHECK(square == expected_square);
-    }
+  }
   CHECK(all_group_kernels().back()->instruction_set == std::string("sse2"));
 }
 
 TEST_CASE("wide: a sweep along a search moves the whole iterate by the same step, then sweeps") {
   const FrictionProblem problem = grain_problem({.seed = 8});
   Wide fast(problem), slow(problem);
-  for (Wide* wide : {&fast, &slow}) wide->sweep.load(problem, start_of(problem));
+  Impulses x = start_of(problem), before = x, direction = 0.0 * x, found;
+  fast.sweep.load(problem, x);
   fast.sweep.start_search();
-  Eigen::VectorXd x, fast_state, weights;
-  slow.sweep.impulse_weights(weights);
-  slow.sweep.save(x);
-  Eigen::VectorXd before = x, direction = Eigen::VectorXd::Zero(x.size());
   for (const SearchStep step : all_search_steps) {
     const double square = fast.sweep.sweep_along(step);
-    // The twin: the formula on impulses and velocities as one vector.
-    slow.sweep.save(x);
-    const Eigen::VectorXd along = step.beta * direction + step.ahead * (x - before);
+    // The twin: the formula on the impulses, from which the velocities follow.
+    const Impulses along = step.beta * direction + step.ahead * (x - before);
     direction = along + step.gain * (x - before);
     before = x + along;
-    slow.sweep.restore(before);
+    slow.sweep.load(problem, before);
     slow.sweep.sweep();
-    slow.sweep.save(x);
-    CHECK(square == Approx((x - before).head(weights.size()).squaredNorm()).epsilon(1e-12));
-    fast.sweep.save(fast_state);
-    CHECK((fast_state - x).norm() <= 1e-14 * x.norm());
+    slow.sweep.store(problem, x);
+    CHECK(square == Approx(swept_square(problem, x - before, /*in_groups=*/true)).epsilon(1e-11));
+    fast.sweep.store(problem, found);
+    CHECK(difference(found, x) <= 1e-13);
   }
-  CHECK(x.head(weights.size()).norm() > 0.0);
+  CHECK(x.norm() > 0.0);
 }
 
 TEST_CASE("wide: impulses that are loaded come back; what nothing moves is dropped") {
@@ -190,18 +188,6 @@ TEST_CASE("wide: impulses that are loaded come back; what nothing moves is dropp
   r.tail<3>().setZero();
   CHECK(difference(back, r) <= 1e-15);
   CHECK(wide.sweep.error() == Approx(contact_error(problem, r).natural_map_rms).epsilon(1e-12));
-}
-
-TEST_CASE("wide: weights are those of W's diagonal in the groups' coordinates") {
-  const FrictionProblem problem = grain_problem({.seed = 4});
-  Wide wide(problem);
-  wide.sweep.load(problem, Impulses::Zero(problem.row_count()));
-  Eigen::VectorXd state, moved, weights;
-  wide.sweep.impulse_weights(weights);
-  wide.sweep.save(state);
-  CHECK(weights.size() < state.size());
-  CHECK(weights.minCoeff() >= 1.0);
-  CHECK(weights.maxCoeff() > 1.0);
 }
 
 TEST_CASE("wide: says of other problems that it cannot take them") {
@@ -225,15 +211,9 @@ TEST_CASE("wide: says of other problems that it cannot take them") {
   CHECK_FALSE(fits(make_known_solution({}).problem));
   // Two walls in contact: both would want to pass through the lanes.
   other = good;
-  other.dynamics.mass.push_back(0.5);
-  other.dynamics.dof_begin.push_back(other.dynamics.dof_count() + 1);
-  other.dynamics.mass_begin.push_back(static_cast<int>(other.dynamics.mass.size()));
-  other.dynamics.body_a.push_back(other.dynamics.body_count() - 2);
-  other.dynamics.body_b.push_back(other.dynamics.body_count() - 1);
-  other.dynamics.h.insert(other.dynamics.h.end(), {-1.0, 1.0});
-  other.dynamics.h_begin.push_back(static_cast<int>(other.dynamics.h.size()));
-  other.row_begin.push_back(other.row_begin.back() + 1);
-  other.friction.push_back(0.0);
+  const int second = other.dynamics.add_body(Eigen::MatrixXd::Constant(1, 1, 0.5));
+  other.add_contact(second - 1, second, 0.0, Eigen::MatrixXd::Constant(1, 1, -1.0),
+                    Eigen::MatrixXd::Ones(1, 1));
   other.dynamics.v_free.conservativeResize(other.dynamics.dof_count());
   other.dynamics.v_free.tail<1>().setZero();
   other.dynamics.bias.conservativeResize(other.row_count());

@@ -23,7 +23,7 @@ struct Trial {
 
   Trial() {
     moving.take(known.problem);
-    moving.gather(known.problem, known.r, exact);
+    moving.gather(known.r, exact);
   }
   Solved solve(const Budget& budget, int patience,
                const std::function<void(const RoundRequest&, RoundAnswer&)>& round) {
@@ -88,10 +88,9 @@ TEST_CASE("rounds that stand still stall; those that a limit ended do not count"
 
 TEST_CASE("nothing is taken from a round that fails") {
   Trial trial;
-  for (const Eigen::VectorXd& bad :
-       {Eigen::VectorXd(), Eigen::VectorXd::Zero(1).eval(),
-        Eigen::VectorXd::Constant(trial.exact.size(), std::numeric_limits<double>::quiet_NaN())
-            .eval()}) {
+  const Eigen::VectorXd no_number =
+      Eigen::VectorXd::Constant(trial.exact.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const Eigen::VectorXd& bad : {Eigen::VectorXd(), Eigen::VectorXd{{0.0}}, no_number}) {
     const Solved solved = trial.solve(
         {.tolerance = 1e-12}, 4, [&](const RoundRequest&, RoundAnswer& answer) { answer.x = bad; });
     CHECK(solved.reason == StopReason::stalled);
@@ -157,24 +156,18 @@ TEST_CASE("the contacts that move, as the dense operator has them") {
 }
 
 TEST_CASE("impulses there and back: what moves stays, what does not becomes zero") {
-  const FrictionProblem problem = oracle::mixed_problem();
+  FrictionProblem problem = oracle::mixed_problem();
   MovingContacts moving;
   moving.take(problem);
   const Impulses r = Impulses::LinSpaced(problem.row_count(), 1.0, 2.0);
   Eigen::VectorXd x;
-  moving.gather(problem, r, x);
+  moving.gather(r, x);
   CHECK(x.size() == 14);
-  Impulses back;
-  moving.scatter(problem, x, back);
-  Impulses expected = r;
+  Impulses back, expected = r;
+  moving.scatter(x, back);
   expected.segment(problem.row_begin[4], 3).setZero();
   CHECK(back == expected);
-}
-
-TEST_CASE("a problem without contacts, after one with some") {
-  FrictionProblem problem = oracle::mixed_problem();
-  MovingContacts moving;
-  moving.take(problem);
+  // A problem without contacts after it.
   problem.clear();
   problem.has_dynamics = true;
   problem.dynamics.v_free.resize(0);

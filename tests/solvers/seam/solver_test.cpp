@@ -1,10 +1,8 @@
 #include "solvers/seam/solver.hpp"
 
-#include "platform/random.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
-#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 
@@ -46,26 +44,6 @@ TEST_CASE("a limit of size admits both counts up to itself, and no limit everyth
 }
 
 // Siconos' measure as a reason to stop: the judge's number, looked at when it may matter.
-
-TEST_CASE("the measure is the judge's, for both forms and for one-row contacts") {
-  KnownSolutionSettings settings;
-  settings.frictionless_fraction = 0.3;
-  settings.mass_ratio = 1e3;
-  FrictionProblem problem = make_known_solution(settings).problem;
-  for (const bool is_stored : {false, true}) {
-    if (is_stored) {
-      add_delassus_form(problem);
-      problem.has_dynamics = false;
-    }
-    FclibStop stop(problem, 1e-4);
-    for (std::uint64_t seed = 1; seed < 6; ++seed) {
-      ProblemRandom random(seed);
-      Impulses r(problem.row_count());
-      for (double& x : r) x = random.uniform(-1.0, 2.0);
-      CHECK(stop.measure(r) == Approx(contact_error(problem, r).fclib).epsilon(1e-12));
-    }
-  }
-}
 
 TEST_CASE("it is reached where the judge says so, and aims at the natural map of that place") {
   const KnownSolution known = make_known_solution({});
