@@ -23,7 +23,7 @@ cd "$caller"
 [ $# -gt 0 ] || set -- vibrated_box
 # a run that was stopped, in its deposit too, goes on; a finished one is not done again
 case " $* " in
-  *" --continue "* | *" --resume "* | *" --overwrite "* | *" --help "* | *" -h "*) ;;
+  *" --continue "* | *" --overwrite "* | *" --help "* | *" -h "*) ;;
   *) set -- "$@" --continue ;;
 esac
 # the same bits on one thread; a third finds nothing to do in 1200 grains

@@ -13,7 +13,6 @@ class StatusLine {
     quiet,
     lines,
     bar,
-    json,  ///< lines for programs, one a second: what is written is JSON
   };
 
   /// bar if stderr is a terminal, else lines.
@@ -26,9 +25,7 @@ class StatusLine {
 
   Style style() const { return style_; }
   /// Between two lines [s]: often where the line rewrites itself.
-  double interval() const {
-    return style_ == Style::bar ? 0.1 : style_ == Style::json ? 1.0 : 10.0;
-  }
+  double interval() const { return style_ == Style::bar ? 0.1 : 10.0; }
 
   void write(const std::string& text);
   /// Ends the line that is being rewritten, if one is: to be called before anything else is

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "experiments/run/prepared_run.hpp"
+#include "experiments/run/run.hpp"
 #include "experiments/step/time_step.hpp"
 #include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -26,10 +26,10 @@ class SteppedScene {
     {
       const py::gil_scoped_release released;
       Manifest manifest(name, overrides, "");
-      prepare_run(scene_, {packings, false, goes_on, Telling::nobody}, manifest, run_);
+      prepare_run(scene_, {packings, goes_on, StatusLine::Style::quiet}, manifest, run_);
     }
     if (is_interrupted) throw py::error_already_set();
-    stepper_ = std::make_unique<TimeStepper>(run_.system, step_settings(scene_), run_.driven_wall);
+    stepper_ = std::make_unique<TimeStepper>(run_.system, scene_, run_.driven_wall);
   }
 
   /// Steps `count` times; calls back after each, and stops where that returns False.
@@ -58,7 +58,7 @@ class SteppedScene {
     return names;
   }
   double time() const { return run_.state.time; }
-  double h() const { return step_settings(scene_).h; }
+  double h() const { return scene_.step; }
   FrictionProblem problem() const { return stepper_->problem(); }
   py::array impulses() const {
     return in_threes(three_rows(stepper_->problem(), stepper_->impulses()));

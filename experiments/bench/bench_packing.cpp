@@ -59,7 +59,7 @@ DepositedBox deposited_box(const std::string& name, const std::vector<std::strin
   box.rain = make_rain(box.scene);
   const InterruptGuard guard;
   double deposit_seconds = 0.0;
-  const PackingOrder order{cache, false, [] { return !InterruptGuard::requested(); }};
+  const PackingOrder order{cache, [] { return !InterruptGuard::requested(); }};
   if (!take_packing(box.scene, box.rain, order, box.packing, deposit_seconds))
     throw Error("interrupted; the same command goes on depositing");
   return box;

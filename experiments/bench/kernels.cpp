@@ -14,8 +14,8 @@ namespace {
 
 /// A step of the driven box, with the problem that it solved.
 struct StepWork {
+  const double h;
   BenchStart start;
-  StepSettings settings;
   TimeStepper stepper;
   ProblemAssembler assembler;
   ContactJudge judge;
@@ -24,9 +24,9 @@ struct StepWork {
   Impulses warm;
 
   StepWork(const DepositedBox& box, int steps)
-      : start(driven_start(box)),
-        settings(step_settings(box.scene)),
-        stepper(start.system, settings, start.system.first_driven_wall()),
+      : h(box.scene.step),
+        start(driven_start(box)),
+        stepper(start.system, box.scene, start.system.first_driven_wall()),
         assembler(start.system) {
     for (int k = 0; k < steps; ++k) stepper.step(start.state, start.memory);
     stepper.warm_start(warm);
@@ -34,8 +34,8 @@ struct StepWork {
     assemble();
   }
   void assemble() {
-    const double end = start.state.time + settings.h;
-    assembler.assemble({start.state, stepper.contacts(), v_free, settings.h, end}, problem);
+    const double end = start.state.time + h;
+    assembler.assemble({start.state, stepper.contacts(), v_free, h, end}, problem);
   }
 };
 
@@ -86,8 +86,7 @@ std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
   const auto step = std::make_shared<StepWork>(box, steps);
   std::vector<Kernel> kernels;
   for (const bool use_cache : {false, true}) {
-    const auto work =
-        std::make_shared<DetectionWork>(step->start, step->settings.detection, use_cache);
+    const auto work = std::make_shared<DetectionWork>(step->start, box.scene.detection, use_cache);
     work->all();
     const double pairs = static_cast<double>(work->detector.counters().candidate_pairs);
     kernels.push_back({"detection", use_cache ? "axes kept" : "from scratch", "ns/pair",

@@ -9,7 +9,7 @@
 
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/page/markdown.hpp"
-#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"

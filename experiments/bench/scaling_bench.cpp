@@ -55,10 +55,10 @@ void measure_packing(const DepositedBox& box, const ScalingOptions& options, Sca
   };
   const double before = peak_bytes(), ns = 1e9 / point.grains;
   BenchStart start = tiled_start(box, point.nx, point.ny);
-  StepSettings settings = step_settings(box.scene);
-  settings.solver.threads = point.threads;
+  Scene scene = box.scene;
+  scene.solver.threads = point.threads;
   std::vector<StepRecord> steps;
-  TimeStepper stepper(start.system, settings, -1);
+  TimeStepper stepper(start.system, scene, -1);
   // Steps with k < 0 warm up: the seams between the copies settle, caches fill.
   for (int k = -options.warm_up; k < options.steps; ++k) {
     const StepRecord step = stepper.step(start.state, start.memory);
@@ -78,7 +78,7 @@ void measure_packing(const DepositedBox& box, const ScalingOptions& options, Sca
   const double sweep = sweep_seconds(stepper.problem(), warm, options.sweeps, point.threads);
   add("sweep", "ns/grain", {ns * sweep});
   add("sweep per contact", "ns/contact", {1e9 * sweep / std::max(1.0, contacts)});
-  const Budget budget{.tolerance = options.tolerance * settings.velocity_scale(),
+  const Budget budget{.tolerance = options.tolerance * velocity_scale(scene),
                       .max_iterations = options.max_iterations};
   WorkerTeam team;
   team.resize(point.threads);

@@ -66,9 +66,9 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
 
 std::vector<BenchStep> measure_steps(const Scene& scene, BenchStart start, long steps,
                                      int threads) {
-  StepSettings settings = step_settings(scene);
-  settings.solver.threads = threads;
-  TimeStepper stepper(start.system, settings, start.system.first_driven_wall());
+  Scene threaded = scene;
+  threaded.solver.threads = threads;
+  TimeStepper stepper(start.system, threaded, start.system.first_driven_wall());
   std::vector<BenchStep> result;
   for (long k = 0; k < steps; ++k) {
     const double begin = processor_seconds();
@@ -95,8 +95,7 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
   }
   std::vector<Measurement> result;
   for (const char* name : {"all", "passive", "jammed", "active"})
-    add_group(thread_words(threads) + ", " + name, groups[name],
-              step_settings(scene).velocity_scale(), result);
+    add_group(thread_words(threads) + ", " + name, groups[name], velocity_scale(scene), result);
   return result;
 }
 

@@ -11,13 +11,10 @@
 
 namespace ballast {
 
-/// A deposited packing, ready to be driven: the poses and velocities at the end of the settling,
-/// the warm start for the first driven step, and how it came about.
-struct Packing {
-  MotionState state;  ///< grains and walls
-  StepMemory memory;
-  DepositState deposit;
-};
+/// A deposited packing, ready to be driven: the poses and velocities of grains and walls at the end
+/// of the settling, the warm start for the first driven step, and how it came about. Its phase is
+/// "packing", its key packing_key().
+using Packing = Checkpoint;
 
 /// Says how far a stage is: simulated time of the stage, rms velocity [m/s], record of the last
 /// step. Returning false stops the deposit (interrupt): it can be continued from `part`.
@@ -30,8 +27,6 @@ using DepositProgress =
 bool deposit(const Scene& scene, const Rain& rain, const std::filesystem::path& part,
              const DepositProgress& progress, Packing& packing);
 
-void write_packing(const std::filesystem::path& file, const std::string& key,
-                   const Packing& packing);
 /// False when the file is not there. Throws Error when it is broken or has another key.
 bool read_packing(const std::filesystem::path& file, const std::string& key, Packing& packing);
 
@@ -44,10 +39,9 @@ std::filesystem::path packing_file(const std::filesystem::path& cache, const std
 
 struct PackingOrder {
   std::filesystem::path cache;    ///< the folder; made if it isn't there
-  bool anew = false;              ///< deposit again even if it is there
   std::function<bool()> goes_on;  ///< asked once per step, and while waiting; false stops, to be
                                   ///< continued another time
-  Telling telling = Telling::reader;
+  Progress::Style style = StatusLine::style_of_stderr();
 };
 
 /// The scene's packing from the cache; where it is missing it is deposited, or waited for when

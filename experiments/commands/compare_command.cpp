@@ -15,7 +15,7 @@
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/compare/live_page.hpp"
 #include "experiments/compare/stored_comparison.hpp"
-#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
@@ -192,7 +192,7 @@ ExitCode compare_live(const CompareRequest& options) {
   live.tolerances = options.comparison.tolerances;
   live.max_seconds = options.comparison.max_seconds;
   live.folder = options.output;
-  live.telling = options.is_quiet ? Telling::nobody : Telling::reader;
+  if (options.is_quiet) live.style = StatusLine::Style::quiet;
   const auto told = [&](const Trajectory& trajectory) {
     if (!options.is_quiet)
       std::cout << trajectory.label() << ": " << trajectory.steps.size() << " steps, "

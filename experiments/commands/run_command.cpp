@@ -7,16 +7,12 @@
 #include <set>
 #include <thread>
 
-#include <nlohmann/json.hpp>
-
 #include "experiments/box/packing.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/measure/run_data.hpp"
 #include "experiments/measure/run_trust.hpp"
 #include "experiments/paper/paper_report.hpp"
 #include "experiments/plans/plan_runner.hpp"
-#include "experiments/plans/resolved_run.hpp"
-#include "experiments/plans/snakemake.hpp"
 #include "experiments/run/capture.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
@@ -47,7 +43,7 @@ ExitCode draw_pages(const std::vector<std::string>& folders) {
 struct RunRequest {
   RunOptions run;
   bool with_page = true, strict = false;
-  bool is_quiet = false, is_json = false;
+  bool is_quiet = false;
 };
 
 /// This command line, so that it goes on with the run that it has begun: from the folder where it
@@ -56,14 +52,11 @@ std::string command_that_goes_on() {
   std::vector<std::string> words = own_words();
   words[0] = own_program().string();
   // What would begin anew is left out.
-  std::erase_if(words, [](const std::string& word) {
-    return word == "--overwrite" || word == "--new-packing";
-  });
+  std::erase(words, "--overwrite");
   const auto is_given = [&](const char* word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
-  if (!is_given("--continue") && !is_given("--resume") && !is_given("--deposit-only"))
-    words.push_back("--continue");
+  if (!is_given("--continue") && !is_given("--deposit-only")) words.push_back("--continue");
   return "cd " + shell_word(std::filesystem::current_path().string()) + " && " + shell_line(words);
 }
 
@@ -72,7 +65,7 @@ std::string command_that_goes_on() {
 void show_results(const RunEnd& end, const RunOptions& options, bool with_page) {
   const bool has_page = is_there(end.folder / "report.html");
   if (with_page && (!end.was_finished || !has_page)) write_report(end.folder);
-  if (end.was_finished || options.telling != Telling::reader) return;
+  if (end.was_finished || options.style == Progress::Style::quiet) return;
   std::cout << "\nresults in " << end.folder.string() << "\n";
   if (with_page)
     std::cout << "  report.html   figures and the table of the run: open it in a browser\n";
@@ -85,14 +78,12 @@ void show_results(const RunEnd& end, const RunOptions& options, bool with_page) 
 }
 
 /// What the user must know of a run that is finished. Strict: only a clean one is a success.
-ExitCode tell_trust(const RunEnd& end, const RunRequest& request,
-                    std::vector<std::string>& to_be_known) {
+ExitCode tell_trust(const RunEnd& end, const RunRequest& request) {
   const RunData data = read_run_data(end.folder);
   const RunSummary run = summarise(data.steps, data.facts);
-  to_be_known = trust_words(run);
-  if (request.run.telling == Telling::reader) {
+  if (request.run.style != Progress::Style::quiet) {
     std::cout << "\nto be known\n";
-    for (const std::string& words : to_be_known) std::cout << "  " << words << '\n';
+    for (const std::string& words : trust_words(run)) std::cout << "  " << words << '\n';
     std::cout << std::flush;
   }
   if (!request.strict || is_clean(run)) return ExitCode::ok;
@@ -101,32 +92,17 @@ ExitCode tell_trust(const RunEnd& end, const RunRequest& request,
   return ExitCode::failure;
 }
 
-/// The last line for a program.
-void tell_end(const RunEnd& end, ExitCode code, const std::vector<std::string>& to_be_known) {
-  const nlohmann::ordered_json line = {{"event", "end"},
-                                       {"folder", end.folder.string()},
-                                       {"exit_code", static_cast<int>(code)},
-                                       {"was_finished", end.was_finished},
-                                       {"to_be_known", to_be_known}};
-  std::cout << line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
-            << std::endl;
-}
-
 ExitCode run_scene(RunRequest& request) {
   restart_with_one_algebra_thread();
   request.run.again = command_that_goes_on();
-  request.run.telling = request.is_json    ? Telling::program
-                        : request.is_quiet ? Telling::nobody
-                                           : Telling::reader;
+  if (request.is_quiet) request.run.style = StatusLine::Style::quiet;
   // more threads than cores only wait for each other
   request.run.threads = std::min(request.run.threads, available_cores());
   const RunEnd end = run(request.run);
   ExitCode code = end.code;
-  std::vector<std::string> to_be_known;
   if (end.has_record) show_results(end, request.run, request.with_page);
   if (end.has_record && code == ExitCode::ok && !request.run.deposit_only)
-    code = tell_trust(end, request, to_be_known);
-  if (request.is_json) tell_end(end, code, to_be_known);
+    code = tell_trust(end, request);
   if (end.code != ExitCode::ok)
     std::cerr << "ballast: " << request.run.scene
               << ": stopped before its end; --continue goes on with it" << std::endl;
@@ -148,22 +124,17 @@ struct PlanRequest {
 
 /// What would be run.
 void list_runs(const Plan& plan, const PlanOptions& running) {
-  const std::vector<ResolvedRun> runs = resolve(Plan{plan.name, select(plan, running.only)});
+  const std::vector<PlannedRun> runs = select(plan, running.only);
   int widest = 4;
-  for (const ResolvedRun& run : runs)
-    widest = std::max(widest, static_cast<int>(run.run.name.size()));
+  for (const PlannedRun& run : runs) widest = std::max(widest, static_cast<int>(run.name.size()));
   std::cout << printed("%-*s  %-16s  %-8s  %9s  packing\n", widest, "name", "key", "state",
                        "steps");
-  for (const ResolvedRun& run : runs) {
-    const RunFolder folder(run_folder(running.results, run));
-    const char* state = folder.is_finished(run.key) ? "finished"
-                        : folder.has_run()          ? "begun"
-                                                    : "waiting";
+  for (const PlannedRun& run : runs) {
     const bool is_stored = is_there(packing_file(packing_folder(running.results), run.packing));
     const std::string packing =
         run.packing.empty() ? "none" : run.packing + (is_stored ? "" : " (to deposit)");
-    std::cout << printed("%-*s  %s  %-8s  %9ld  %s\n", widest, run.run.name.c_str(),
-                         run.key.c_str(), state, run.steps, packing.c_str());
+    std::cout << printed("%-*s  %s  %-8s  %9ld  %s\n", widest, run.name.c_str(), run.key.c_str(),
+                         state_of(running.results, run).c_str(), run.steps, packing.c_str());
   }
 }
 
@@ -281,14 +252,11 @@ Command run_command() {
        {"--set KEY=VALUE", &run.overrides,
         "Overrides one value of the scene: dotted.key=value, body.0.mass=2"},
        {"--output DIR", &run.output, "The run's folder (results/<scene>)"},
-       {"--resume", &run.resume, "Continues the run found in the folder"},
-       {"--overwrite", &run.overwrite, "Replaces the run found in the folder",
-        excludes("--resume")},
-       {"--continue", &run.begin_or_resume,
+       {"--overwrite", &run.overwrite, "Replaces the run found in the folder"},
+       {"--continue", &run.resume,
         "Continues the run found in the folder or begins one; does nothing when it is finished",
-        excludes("--resume"), excludes("--overwrite")},
+        excludes("--overwrite")},
        {"--deposit-only", &run.deposit_only, "Only sees to it that the packing is in the cache"},
-       {"--new-packing", &run.new_packing, "Deposits the grains again, whatever the cache has"},
        {"--packing-cache DIR", &run.packing_cache,
         "Where deposited packings are kept (<output>/../packings)"},
        {"--capture WHICH", into(run.capture, which_steps),
@@ -302,9 +270,6 @@ Command run_command() {
        {"--strict", &request->strict,
         "Exit code 1 when steps missed their tolerance, overlaps can be seen or energy was gained"},
        {"--quiet", &request->is_quiet, "Says nothing but failures"},
-       {"--json", &request->is_json,
-        "Progress and end for programs: one JSON object a line on stdout, nothing else",
-        excludes("--quiet")},
        {"--no-report", &request->with_page, "No figures and no page at the end"}},
       [request] { return run_scene(*request); }};
 }

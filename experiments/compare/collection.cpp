@@ -75,9 +75,9 @@ ExitCode make_collection(const fs::path& folder, std::span<const CollectedRun> r
     options.overrides = wanted.overrides;
     options.output = folder / "runs" / wanted.name;
     options.packing_cache = folder / "packings";
-    options.begin_or_resume = true;
+    options.resume = true;
     options.capture = printed("every=95,steps=1,also=%d", settling_step);
-    options.telling = Telling::nobody;
+    options.style = StatusLine::Style::quiet;
     if (const ExitCode code = run(options).code; code != ExitCode::ok) return code;
     create_folder(folder / "problems" / wanted.name);
     for (const FoundProblem& found : find_problems((options.output / "capture").string())) {

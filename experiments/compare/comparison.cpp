@@ -6,7 +6,7 @@
 #include <set>
 
 #include "experiments/measure/exact_answer.hpp"
-#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"

@@ -7,8 +7,6 @@
 
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/record/checkpoint.hpp"
-#include "experiments/run/manifest.hpp"
-#include "experiments/run/prepared_run.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/step/time_step.hpp"
@@ -76,8 +74,8 @@ void make_start(const LiveOptions& options, const Scene& scene) {
   run_options.output = options.folder / "start";
   run_options.packing_cache =
       options.packing_cache.empty() ? options.folder / "packings" : options.packing_cache;
-  run_options.telling = options.telling;
-  run_options.resume = RunFolder(run_options.output).has_run();
+  run_options.style = options.style;
+  run_options.resume = true;
   if (run(run_options).code != ExitCode::ok)
     throw Error(run_options.output.string() + ": the start was not reached");
 }
@@ -106,16 +104,15 @@ void append_frame(const MotionState& state, int grains, Trajectory& trajectory) 
 
 /// What the child does: steps until the end, or the time is over. A backend that throws ends the
 /// trajectory there, with its own words.
-void step_on(const LiveOptions& options, const Scene& scene, Start start,
-             const ComparedSolver& solver, Trajectory& trajectory) {
-  StepSettings settings = step_settings(scene);
-  settings.solver.name = solver.name;
-  settings.solver.tolerance = trajectory.tolerance;
-  settings.solver.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1 << 30;
-  settings.solver.max_seconds = options.max_seconds;
-  settings.solver.threads = options.threads;
-  TimeStepper stepper(start.system, settings, start.system.first_driven_wall());
-  const long count = std::max(1L, std::lround(options.duration / settings.h)),
+void step_on(const LiveOptions& options, Scene scene, Start start, const ComparedSolver& solver,
+             Trajectory& trajectory) {
+  scene.solver.name = solver.name;
+  scene.solver.tolerance = trajectory.tolerance;
+  scene.solver.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1 << 30;
+  scene.solver.max_seconds = options.max_seconds;
+  scene.solver.threads = options.threads;
+  TimeStepper stepper(start.system, scene, start.system.first_driven_wall());
+  const long count = std::max(1L, std::lround(options.duration / scene.step)),
              frame_every = std::max(1L, count / 100);
   const Stopwatch watch;
   append_frame(start.state, start.system.grain_count, trajectory);
@@ -230,7 +227,7 @@ LiveComparison run_live(const LiveOptions& options,
                         const std::function<bool(const Trajectory&)>& said) {
   LiveComparison comparison;
   comparison.scene = read_scene(find_scene(options.scene), options.overrides);
-  comparison.velocity_scale = step_settings(comparison.scene).velocity_scale();
+  comparison.velocity_scale = velocity_scale(comparison.scene);
   make_start(options, comparison.scene);
   const InterruptGuard guard;  // only now: run() has one of its own
   const Start start = read_start(options, comparison.scene);

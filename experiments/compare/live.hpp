@@ -48,7 +48,7 @@ struct LiveOptions {
   int threads = 1;                      ///< of the step and its solver: the same bits
   double trajectory_seconds = 600.0;    ///< wall clock of one trajectory
   std::filesystem::path packing_cache;  ///< empty: <folder>/packings
-  Telling telling = Telling::reader;    ///< of the start
+  Progress::Style style = StatusLine::style_of_stderr();  ///< of the start
   std::filesystem::path folder;  ///< start/ (a run), trajectories/<key>.bin, live.csv, live.html
 };
 

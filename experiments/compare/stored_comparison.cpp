@@ -5,7 +5,7 @@
 #include <set>
 
 #include "experiments/compare/compare_page.hpp"
-#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 

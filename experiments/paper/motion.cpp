@@ -5,7 +5,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "experiments/run/prepared_run.hpp"
 #include "experiments/run/run_folder.hpp"
 
 namespace ballast {

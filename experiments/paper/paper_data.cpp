@@ -48,15 +48,14 @@ std::vector<CampaignRun> read_campaign(const CampaignSettings& settings) {
   for (PlannedRun& run : plan.runs) {
     if (!settings.scene.empty() && run.scene == usual_scene) run.scene = settings.scene;
     run.overrides.insert(run.overrides.end(), settings.overrides.begin(), settings.overrides.end());
+    run = planned_run(run.name, run.scene, run.overrides);
   }
   if (!settings.only.empty()) plan.runs = select(plan, settings.only);
   std::vector<CampaignRun> runs;
   for (const PlannedRun& run : plan.runs) {
-    const ResolvedScene scene = resolve_scene(find_scene(run.scene), run.overrides);
-    if (!scene.scene.grains)
+    if (run.packing.empty())
       throw SceneFileError(run.scene + ": has no [grains], expected a vibrated box");
-    runs.push_back({run, run.name.substr(0, run.name.find_first_of("-.")), scene.key,
-                    scene.scene.step_count()});
+    runs.push_back({run, run.name.substr(0, run.name.find_first_of("-.")), run.key, run.steps});
   }
   return runs;
 }

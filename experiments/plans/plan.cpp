@@ -4,6 +4,7 @@
 
 #include <fnmatch.h>
 
+#include "experiments/box/vibrated_box.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -20,17 +21,17 @@ void check_name(const std::string& name, const std::string& what, const std::str
                          "\": expected letters, digits, _, -, . and =");
 }
 
-/// Names that can be names, each once, and runs that are valid scenes.
-void validate(const Plan& plan, const std::string& origin) {
+/// Names that can be names, each once, and runs that are valid scenes, which are read.
+void validate(Plan& plan, const std::string& origin) {
   check_name(plan.name, "name", origin);
   std::set<std::string> names;
-  for (const PlannedRun& run : plan.runs) {
+  for (PlannedRun& run : plan.runs) {
     check_name(run.name, "run.name", origin);
     if (!names.insert(run.name).second)
       throw SceneFileError(origin + ": run.name = \"" + run.name +
                            "\": stands twice, expected another name for each run");
     try {
-      run_key(run);
+      run = planned_run(run.name, run.scene, run.overrides);
     } catch (const SceneFileError& error) {
       throw SceneFileError(origin + ": run " + run.name + ": " + error.what());
     }
@@ -38,6 +39,24 @@ void validate(const Plan& plan, const std::string& origin) {
 }
 
 }  // namespace
+
+PlannedRun planned_run(const std::string& name, const std::string& text,
+                       const std::vector<std::string>& overrides) {
+  const ResolvedScene resolved = resolve_scene(find_scene(text), overrides);
+  const Scene& scene = resolved.scene;
+  PlannedRun run{name, text, overrides, resolved.key, {}, scene.step_count()};
+  const double bodies =
+      scene.grains ? scene.grains->count : static_cast<double>(scene.bodies.size());
+  run.work = bodies * static_cast<double>(run.steps);
+  if (!scene.grains) return run;
+  run.packing = packing_key(scene);
+  const DepositSpec& deposit = scene.deposit;
+  // the rain rests long before its time is up
+  const double rain_time = deposit.max_time / 3.0;
+  run.packing_work = bodies * ((rain_time + deposit.lid_time) / deposit.step +
+                               deposit.settle_time / deposit.settle_step);
+  return run;
+}
 
 void write_plan(const Plan& plan, const fs::path& file) {
   toml::array runs;
@@ -51,10 +70,6 @@ void write_plan(const Plan& plan, const fs::path& file) {
     runs.push_back(toml::table{{"name", run.name}, {"scene", scene}, {"set", std::move(set)}});
   }
   write_whole_file(file, toml_text(toml::table{{"name", plan.name}, {"run", std::move(runs)}}));
-}
-
-std::string run_key(const PlannedRun& run) {
-  return resolve_scene(find_scene(run.scene), run.overrides).key;
 }
 
 std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern) {
@@ -202,7 +217,7 @@ std::string name_part(const std::string& value) {
 
 /// The run at chosen[a] of each axis a. What `where` sets comes last: it overrides the rest.
 PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
-  PlannedRun run{grid.name, grid.base.scene, grid.base.set};
+  PlannedRun run{.name = grid.name, .scene = grid.base.scene, .overrides = grid.base.set};
   const auto value_of = [&](const std::string& key) {
     size_t a = 0;
     while (grid.axes[a].key != key) ++a;
@@ -267,7 +282,8 @@ Plan read_plan(const fs::path& file) {
     Base own = read_base(table, file, base);
     if (own.scene.empty()) table.text("scene");  // says that it is missing
     table.finish();
-    plan.runs.push_back({name, std::move(own.scene), std::move(own.set)});
+    plan.runs.push_back(
+        {.name = name, .scene = std::move(own.scene), .overrides = std::move(own.set)});
   }
   for (size_t k = 0; k < grids.size(); ++k) {
     const Grid grid = read_grid(grids[k], *raw["grid"][k].as_table(), file, base);

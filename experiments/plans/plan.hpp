@@ -13,7 +13,17 @@ struct PlannedRun {
   std::string name;                    ///< unique in its plan: letters, digits, _ - . =
   std::string scene;                   ///< name or path, as for `ballast run`
   std::vector<std::string> overrides;  ///< "dotted.key=value"
+  // what it amounts to once its scene has been read
+  std::string key{};          ///< of the resolved scene: the same for runs that compute the same
+  std::string packing{};      ///< packing_key of its scene; empty: it has none
+  long steps = 0;             ///< of the drive
+  double work = 0.0;          ///< bodies times steps: what its time is roughly proportional to
+  double packing_work = 0.0;  ///< the same of the deposit, as far as that can be known beforehand
 };
+
+/// Reads the scene. Throws SceneFileError.
+PlannedRun planned_run(const std::string& name, const std::string& scene,
+                       const std::vector<std::string>& overrides);
 
 struct Plan {
   std::string name;  ///< as a run's; also a file's
@@ -27,9 +37,6 @@ Plan read_plan(const std::filesystem::path& file);
 /// The plan as a file that read_plan reads to the same plan: every run written out. Throws Error
 /// when it cannot be written.
 void write_plan(const Plan& plan, const std::filesystem::path& file);
-
-/// Key of the resolved scene: the same for runs that compute the same. Throws SceneFileError.
-std::string run_key(const PlannedRun& run);
 
 /// The runs of the plan that a shell's pattern names; all of them where it is empty. Throws
 /// SceneFileError when there are none.

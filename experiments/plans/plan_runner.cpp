@@ -2,36 +2,103 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
-#include <set>
 
 #include <signal.h>
 #include <unistd.h>
 
 #include "experiments/box/packing.hpp"
 #include "experiments/run/run_folder.hpp"
-#include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
+#include "platform/csv.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
+#include "platform/row_log.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
 
-// How far a plan is, over all its runs.
+namespace fs = std::filesystem;
 
-PlanProgress::PlanProgress(StatusLine::Style style, const std::vector<Task>& tasks)
-    : line_(style, std::cerr), tasks_(tasks) {
-  for (const Task& task : tasks) all_work_ += task.work;
-  work_before_ = work_done();
+fs::path run_folder(const fs::path& results, const PlannedRun& run) {
+  return results / "runs" / run.key;
+}
+fs::path packing_folder(const fs::path& results) { return results / "packings"; }
+
+std::vector<std::string> run_arguments(const fs::path& results, const PlannedRun& run,
+                                       bool deposit_only) {
+  std::vector<std::string> words{"run", run.scene};
+  for (const std::string& text : run.overrides) words.insert(words.end(), {"--set", text});
+  words.insert(words.end(), {"--packing-cache", packing_folder(results).string()});
+  if (deposit_only)
+    words.push_back("--deposit-only");
+  else
+    words.insert(words.end(),
+                 {"--output", run_folder(results, run).string(), "--continue", "--no-report"});
+  return words;
 }
 
-double PlanProgress::work_done() const {
+long steps_in_log(const fs::path& run_folder) {
+  const fs::path log = RunFolder(run_folder).steps_log();
+  if (!is_there(log)) return 0;
+  try {
+    return RowReader(log).row_count();
+  } catch (const Error&) {  // just being made
+    return 0;
+  }
+}
+
+std::string state_of(const fs::path& results, const PlannedRun& run) {
+  const RunFolder folder(run_folder(results, run));
+  if (!folder.has_run()) return "waiting";
+  try {
+    return folder.is_finished(run.key) ? "finished" : "begun";
+  } catch (const Error&) {
+    return "begun";
+  }
+}
+
+void write_index(const fs::path& results, const Plan& plan, const std::set<std::string>& failed) {
+  const fs::path file = results / "index.csv";
+  CsvWriter csv;
+  csv.add_row(std::vector<std::string>{"plan", "name", "key", "state", "steps_done", "steps",
+                                       "seconds", "error_mean", "commit"});
+  for (const PlannedRun& run : plan.runs) {
+    const RunFolder folder(run_folder(results, run));
+    const std::string state = failed.contains(run.key) ? "failed" : state_of(results, run);
+    const long done =
+        state == "finished" ? run.steps : std::min(run.steps, steps_in_log(folder.path()));
+    std::vector<std::string> cells{
+        plan.name, run.name, run.key, state, std::to_string(done), std::to_string(run.steps)};
+    try {
+      const Manifest manifest = Manifest::read(folder.manifest());
+      for (const char* name : {"drive_seconds", "error_mean_relative"}) {
+        const double number = manifest.summary_number(name);
+        cells.push_back(std::isnan(number) ? "" : printed("%.6g", number));
+      }
+      cells.push_back(manifest.commit());
+    } catch (const Error&) {  // not written yet, or damaged: the run itself will say so
+      cells.resize(9);
+    }
+    csv.add_row(cells);
+  }
+  std::string text = csv.take();
+  // Plans may share a folder: all that were ever run there are in the one table.
+  if (is_there(file)) {
+    const std::vector<std::string> rows = split(read_whole_file(file), '\n');
+    for (size_t k = 1; k < rows.size(); ++k)
+      if (!rows[k].empty() && !rows[k].starts_with(plan.name + ',')) text += rows[k] + '\n';
+  }
+  write_whole_file(file, text);
+}
+
+double work_done(const std::vector<Task>& tasks) {
   // A run that goes on counts by its steps; a deposit counts when it is through.
   double done = 0.0;
-  for (const Task& task : tasks_) {
+  for (const Task& task : tasks) {
     if (task.state == TaskState::finished)
       done += task.work;
     else if (task.is_run() && task.steps > 0)
@@ -41,101 +108,70 @@ double PlanProgress::work_done() const {
   return done;
 }
 
-std::string PlanProgress::text(double now) const {
-  size_t runs = 0, finished = 0, failed = 0, running = 0, deposits = 0;
-  for (const Task& task : tasks_) {
-    runs += task.is_run();
-    finished += task.is_run() && task.state == TaskState::finished;
-    failed += task.is_run() && task.state == TaskState::failed;
-    running += task.is_run() && task.state == TaskState::running;
-    deposits += !task.is_run() && task.state == TaskState::running;
-  }
+std::string plan_progress(const std::vector<Task>& tasks, double work_before, double seconds) {
+  const auto count = [&](bool is_run, TaskState state) {
+    return std::ranges::count_if(
+        tasks, [&](const Task& task) { return task.is_run() == is_run && task.state == state; });
+  };
+  double all = 0.0;
+  for (const Task& task : tasks) all += task.work;
   // What is left takes as long as what was done since the beginning, in proportion to the work.
-  const double done = work_done(), gained = done - work_before_;
-  const double fraction = all_work_ > 0.0 ? done / all_work_ : 1.0;
-  std::string text = line_.style() == StatusLine::Style::bar ? bar_text(fraction) : "";
-  text += printed("%3.0f %%  %zu of %zu runs, %zu running", std::floor(100.0 * fraction), finished,
-                  runs, running);
-  if (deposits > 0) text += ", " + std::to_string(deposits) + " depositing";
-  if (failed > 0) text += ", " + std::to_string(failed) + " FAILED";
-  if (gained > 0.0) text += "  " + duration_text(now * (all_work_ - done) / gained) + " left";
+  const double done = work_done(tasks), gained = done - work_before;
+  std::string text =
+      printed("%3.0f %%  %td of %td runs, %td running",
+              all > 0.0 ? std::floor(100.0 * done / all) : 100.0, count(true, TaskState::finished),
+              std::ranges::count_if(tasks, &Task::is_run), count(true, TaskState::running));
+  if (const auto deposits = count(false, TaskState::running); deposits > 0)
+    text += ", " + std::to_string(deposits) + " depositing";
+  if (const auto failed = count(true, TaskState::failed); failed > 0)
+    text += ", " + std::to_string(failed) + " FAILED";
+  if (gained > 0.0) text += "  " + duration_text(seconds * (all - done) / gained) + " left";
   return text;
 }
 
-void PlanProgress::show(double now) {
-  const double interval =
-      3.0 * line_.interval();  // hours rather than minutes: half a minute between lines
-  if (line_.style() == StatusLine::Style::quiet || now < written_ + interval) return;
-  written_ = now;
-  line_.write(text(now));
-}
-
-void PlanProgress::say(const std::string& text) {
-  line_.end();
-  if (line_.style() != StatusLine::Style::quiet) std::cout << text << std::endl;
-}
-
-namespace fs = std::filesystem;
 namespace {
 
-/// A manifest that is damaged does not count; the run itself then says what is wrong with it.
-bool is_finished(const fs::path& folder, const std::string& key) {
-  try {
-    return RunFolder(folder).is_finished(key);
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-Task run_task(const fs::path& results, const ResolvedRun& run) {
-  Task task{.title = run.run.name,
+Task run_task(const fs::path& results, const PlannedRun& run) {
+  Task task{.title = run.name,
             .key = run.key,
             .folder = run_folder(results, run),
             .log = results / "logs" / (run.key + ".log"),
             .arguments = run_arguments(results, run),
             .steps = run.steps,
             .work = run.work};
-  if (is_finished(task.folder, run.key)) task.state = TaskState::finished;
+  if (state_of(results, run) == "finished") task.state = TaskState::finished;
   return task;
 }
 
-Task deposit_task(const fs::path& results, const ResolvedRun& run) {
-  return {.title = "packing of " + run.run.name,
+Task deposit_task(const fs::path& results, const PlannedRun& run) {
+  return {.title = "packing of " + run.name,
           .key = run.packing,
           .log = results / "logs" / ("packing-" + run.packing + ".log"),
-          .arguments = deposit_arguments(results, run),
+          .arguments = run_arguments(results, run, true),
           .work = run.packing_work};
-}
-
-void sort_by_work(std::vector<Task>& tasks) {
-  std::stable_sort(tasks.begin(), tasks.end(),
-                   [](const Task& a, const Task& b) { return a.work > b.work; });
 }
 
 }  // namespace
 
-std::vector<Task> make_tasks(const fs::path& results, const std::vector<ResolvedRun>& runs) {
-  std::vector<Task> drives, tasks;
-  std::map<std::string, std::string> packing_of;  // of a run that waits for it
-  std::set<std::string> seen;  // two names may be one run, and several runs have one packing
-  for (const ResolvedRun& run : runs) {
-    if (!seen.insert(run.key).second) continue;
-    drives.push_back(run_task(results, run));
-    const bool needs_packing = drives.back().state != TaskState::finished && !run.packing.empty() &&
+std::vector<Task> make_tasks(const fs::path& results, std::vector<PlannedRun> runs) {
+  std::vector<Task> tasks;
+  // Of deposits and of runs the longest come first, so that no long one is left for the end.
+  std::ranges::stable_sort(runs, std::greater(), &PlannedRun::packing_work);
+  std::map<std::string, int> deposits;  // several runs have one packing
+  for (const PlannedRun& run : runs) {
+    const bool needs_packing = !run.packing.empty() && state_of(results, run) != "finished" &&
                                !is_there(packing_file(packing_folder(results), run.packing));
-    if (!needs_packing) continue;
-    packing_of[run.key] = run.packing;
-    if (seen.insert(run.packing).second) tasks.push_back(deposit_task(results, run));
+    if (needs_packing && deposits.emplace(run.packing, tasks.size()).second)
+      tasks.push_back(deposit_task(results, run));
   }
-  // of deposits and of drives the longest come first, so that no long one is left for the end
-  sort_by_work(tasks);
-  sort_by_work(drives);
-  const size_t deposits = tasks.size();
-  for (Task& task : drives) {
-    if (const auto packing = packing_of.find(task.key); packing != packing_of.end())
-      for (size_t k = 0; k < deposits; ++k)
-        if (tasks[k].key == packing->second) task.deposit = static_cast<int>(k);
-    tasks.push_back(std::move(task));
+  std::ranges::stable_sort(runs, std::greater(), &PlannedRun::work);
+  std::set<std::string> seen;  // two names may be one run
+  for (const PlannedRun& run : runs) {
+    if (!seen.insert(run.key).second) continue;
+    Task& task = tasks.emplace_back(run_task(results, run));
+    const auto deposit = deposits.find(run.packing);
+    if (task.state != TaskState::finished && deposit != deposits.end())
+      task.deposit = deposit->second;
   }
   return tasks;
 }
@@ -146,11 +182,13 @@ namespace {
 /// second.
 class Engine {
  public:
-  Engine(const PlanOptions& options, std::vector<Task> tasks)
-      : options_(options),
-        program_(options.program.empty() ? own_program() : options.program),
+  Engine(const Plan& plan, const PlanOptions& options, std::vector<Task> tasks)
+      : plan_(plan),
+        options_(options),
+        program_(own_program()),
         tasks_(std::move(tasks)),
-        progress_(options.style, tasks_) {}
+        work_before_(work_done(tasks_)),
+        line_(options.style, std::cerr) {}
 
   /// What stopped everything before its end; ok: nothing did.
   ExitCode execute() {
@@ -165,11 +203,11 @@ class Engine {
         // they write a checkpoint and end; the loop goes on until all have
         for (const auto& [task, worker] : workers_) worker->send(SIGTERM);
       }
-      progress_.show(seconds());
+      show();
       if (seconds() > indexed_ + 20.0) index();
       usleep(5000);
     }
-    progress_.end();
+    line_.end();
     index();
     return stopped;
   }
@@ -178,6 +216,20 @@ class Engine {
 
  private:
   double seconds() const { return watch_.seconds(); }
+
+  /// Something happened: a line on stdout.
+  void say(const std::string& text) {
+    line_.end();
+    if (options_.style != StatusLine::Style::quiet) std::cout << text << std::endl;
+  }
+
+  void show() {
+    // hours rather than minutes: half a minute between lines
+    if (options_.style == StatusLine::Style::quiet || seconds() < shown_ + 3.0 * line_.interval())
+      return;
+    shown_ = seconds();
+    line_.write(plan_progress(tasks_, work_before_, shown_));
+  }
 
   /// False when nothing was there to start; failed deposits take their runs with them.
   bool start_what_can(bool may_start) {
@@ -216,7 +268,7 @@ class Engine {
     Task& task = tasks_[k];
     if (status == static_cast<int>(ExitCode::ok)) {
       task.state = TaskState::finished;
-      progress_.say("finished  " + task.title + "  " + duration_text(seconds() - begun_[k]));
+      say("finished  " + task.title + "  " + duration_text(seconds() - begun_[k]));
     } else if (InterruptGuard::requested() || seconds() > options_.max_seconds) {
       task.state = TaskState::stopped;
     } else if (status > 128) {
@@ -228,25 +280,26 @@ class Engine {
 
   void fail(Task& task, const std::string& reason) {
     task.state = TaskState::failed;
-    task.reason = reason;
-    progress_.say("FAILED    " + task.title + ": " + reason + " (" + task.log.string() + ")");
+    say("FAILED    " + task.title + ": " + reason + " (" + task.log.string() + ")");
   }
 
   /// index.csv, every twenty seconds and at the end: what has failed is known here alone.
   void index() {
-    std::map<std::string, std::string> failed;
+    std::set<std::string> failed;
     for (const Task& task : tasks_)
-      if (task.state == TaskState::failed) failed.emplace(task.key, task.reason);
-    write_index(options_.results, failed);
+      if (task.state == TaskState::failed) failed.insert(task.key);
+    write_index(options_.results, plan_, failed);
     indexed_ = seconds();
   }
 
+  const Plan& plan_;
   const PlanOptions& options_;
   fs::path program_;
   std::vector<Task> tasks_;
-  PlanProgress progress_;
+  double work_before_;
+  StatusLine line_;
   Stopwatch watch_;
-  double indexed_ = 0.0;
+  double indexed_ = 0.0, shown_ = 0.0;
   std::map<size_t, std::unique_ptr<ChildProcess>> workers_;  // by task
   std::map<size_t, double> begun_;
 };
@@ -276,16 +329,13 @@ ExitCode conclude(const std::vector<Task>& tasks, size_t before, ExitCode stoppe
 }  // namespace
 
 ExitCode run_plan(const Plan& plan, const PlanOptions& options) {
-  // everything that can be wrong with the plan is found before anything is written
-  const std::vector<ResolvedRun> all = resolve(plan);
-  const std::vector<ResolvedRun> chosen = resolve({plan.name, select(plan, options.only)});
+  const std::vector<PlannedRun> chosen = select(plan, options.only);
   const InterruptGuard guard;
   for (const char* name : {"runs", "packings", "logs"}) create_folder(options.results / name);
   const FileLock lock(options.results / "plan.lock", briefly);
   if (!lock.is_held())
     throw Error(options.results.string() + ": " + lock.holder() + " is running a plan there");
-  note_plan(options.results, plan.name, all);
-  Engine engine(options, make_tasks(options.results, chosen));
+  Engine engine(plan, options, make_tasks(options.results, chosen));
   const auto finished = [](const Task& task) {
     return task.is_run() && task.state == TaskState::finished;
   };

@@ -1,8 +1,6 @@
-#include "experiments/plans/snakemake.hpp"
-
 #include <nlohmann/json.hpp>
 
-#include "experiments/plans/resolved_run.hpp"
+#include "experiments/plans/plan_runner.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -25,16 +23,15 @@ std::string with_folder(std::string text, const fs::path& folder) {
 }
 
 /// What the Snakefile reads: the arguments of every job, by packing and by run.
-Json jobs_json(const std::vector<ResolvedRun>& runs, const fs::path& results,
+Json jobs_json(const std::vector<PlannedRun>& runs, const fs::path& results,
                const fs::path& program, const fs::path& folder) {
   Json packings = Json::object(), jobs = Json::object();
-  for (const ResolvedRun& run : runs) {
+  for (const PlannedRun& run : runs) {
     if (!run.packing.empty() && !packings.contains(run.packing))
-      packings[run.packing] = deposit_arguments(results, run);
+      packings[run.packing] = run_arguments(results, run, true);
     if (jobs.contains(run.key)) continue;
-    jobs[run.key] = {{"name", run.run.name},
-                     {"packing", run.packing},
-                     {"arguments", run_arguments(results, run)}};
+    jobs[run.key] = {
+        {"name", run.name}, {"packing", run.packing}, {"arguments", run_arguments(results, run)}};
   }
   const Json finish{"plan", (folder / "plan.toml").string(), "--output", results.string()};
   return {{"program", program.string()},
@@ -71,12 +68,10 @@ void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::
   Plan absolute = plan;  // jobs begin elsewhere
   for (PlannedRun& run : absolute.runs)
     run.scene = fs::absolute(find_scene(run.scene)).lexically_normal();
-  const std::vector<ResolvedRun> runs = resolve(absolute);
   write_slurm_profile(folder);
   for (const char* name : {"runs", "packings", "logs", "snakemake"}) create_folder(results / name);
-  note_plan(results, plan.name, runs);
   write_plan(absolute, folder / "plan.toml");
-  const Json jobs = jobs_json(runs, results, program, folder);
+  const Json jobs = jobs_json(absolute.runs, results, program, folder);
   write_whole_file(folder / "runs.json",
                    jobs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   write_whole_file(folder / "Snakefile", cluster_file("Snakefile"));

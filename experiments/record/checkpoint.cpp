@@ -1,5 +1,7 @@
 #include "experiments/record/checkpoint.hpp"
 
+#include <array>
+
 #include "platform/pack.hpp"
 
 namespace ballast {
@@ -31,24 +33,13 @@ void carry_motion(Carrier& carrier, Of& checkpoint) {
   carrier.list(checkpoint.memory.impulses, vector);
 }
 
-/// A file may be whole and yet not fit together: every body has a pose, a velocity and a
-/// spin, and every contact an impulse.
-void check(const Checkpoint& checkpoint, const Unpacker& unpacker) {
-  const size_t bodies = checkpoint.state.pose.size();
-  unpacker.require(checkpoint.state.velocity.size() == bodies);
-  unpacker.require(checkpoint.state.spin.size() == bodies);
-  unpacker.require(checkpoint.memory.impulses.size() == checkpoint.memory.contacts.size());
-}
-
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   Packer packer;
   carry_motion(packer, checkpoint);
-  std::vector<double> numbers;  // none: a drive
-  if (const std::optional<DepositState>& d = checkpoint.deposit)
-    numbers = {d->top, d->lid, d->rain_time, d->rest_velocity};
-  packer.list(numbers);
+  const DepositState& d = checkpoint.deposit;
+  packer.list(std::array{d.top, d.lid, d.rain_time, d.rest_velocity});
   write_sealed_file(file, checkpoint_kind, packer.bytes());
 }
 
@@ -56,14 +47,18 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const std::string body = read_sealed_file(file, checkpoint_kind);
   Unpacker unpacker(body, file.string() + ": checkpoint");
   Checkpoint checkpoint;
-  std::vector<double> numbers;
+  std::vector<double> deposit;
   carry_motion(unpacker, checkpoint);
-  unpacker.list(numbers);
+  unpacker.list(deposit);
   unpacker.finish();
-  unpacker.require(numbers.empty() || numbers.size() == 4);
-  if (!numbers.empty())
-    checkpoint.deposit = DepositState{numbers[1], numbers[0], numbers[2], numbers[3]};
-  check(checkpoint, unpacker);
+  unpacker.require(deposit.size() == 4);
+  checkpoint.deposit = {deposit[0], deposit[1], deposit[2], deposit[3]};
+  // A file may be whole and yet not fit together: every body has a pose, a velocity and a spin, and
+  // every contact an impulse.
+  const MotionState& state = checkpoint.state;
+  unpacker.require(state.velocity.size() == state.pose.size());
+  unpacker.require(state.spin.size() == state.pose.size());
+  unpacker.require(checkpoint.memory.impulses.size() == checkpoint.memory.contacts.size());
   return checkpoint;
 }
 

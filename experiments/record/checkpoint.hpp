@@ -2,7 +2,6 @@
 // Everything from which a run continues to the last bit.
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "experiments/step/step_record.hpp"
@@ -12,19 +11,20 @@ namespace ballast {
 
 /// What a deposit knows besides the motion. What is not reached yet is 0.
 struct DepositState {
-  double lid = 0.0;            ///< height of the lid [m]
   double top = 0.0;            ///< highest vertex when the lid was raised [m]
+  double lid = 0.0;            ///< height of the lid [m]
   double rain_time = 0.0;      ///< simulated until rest [s]
   double rest_velocity = 0.0;  ///< rms grain velocity at the end [m/s]
 };
 
 struct Checkpoint {
-  std::string
-      key;  ///< hash of the resolved scene, or a packing's key: of another one it is refused
+  /// Of the resolved scene; of a deposit and its packing packing_key(). Of another one it is
+  /// refused.
+  std::string key;
   std::string phase;  ///< "rain", "press", "settle", "packing" or "drive"
   MotionState state;
-  StepMemory memory;                    ///< warm start
-  std::optional<DepositState> deposit;  ///< of a deposit and its packing; none in a drive
+  StepMemory memory;     ///< warm start
+  DepositState deposit;  ///< of a deposit and its packing; zeros in a drive
 };
 
 /// Binary, with magic, format and a checksum; written to a neighbour, fsynced, renamed. Throws

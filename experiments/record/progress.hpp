@@ -1,6 +1,6 @@
 #pragma once
 // How far a run is: one line that rewrites itself on a terminal, a line every ten seconds
-// elsewhere, nothing when quiet, JSON for programs.
+// elsewhere, nothing when quiet.
 
 #include <functional>
 #include <iosfwd>
@@ -13,52 +13,40 @@
 
 namespace ballast {
 
-/// To whom a run tells how far it is.
-enum class Telling {
-  reader,   ///< words on stdout, a line on stderr
-  nobody,   ///< failures alone
-  program,  ///< one JSON object a line on stdout, nothing else
-};
-
 class Progress {
  public:
   using Style = StatusLine::Style;
 
-  /// To stderr: a bar if that is a terminal, else lines. To stdout: JSON.
-  explicit Progress(Telling telling = Telling::reader);
+  /// To stderr.
+  explicit Progress(Style style);
   /// `clock`: seconds from anywhere, increasing.
   Progress(Style style, std::ostream& out, std::function<double()> clock);
 
   /// After each step: `time` of `total` [s], NaN where that is not known, in the phase `label`.
-  /// Steps are counted by the calls; rate and time left are those since the first call.
-  /// `rms_velocity` [m/s] is shown unless it is NaN. Costs a clock reading unless it is time to
-  /// write.
+  /// Steps are counted by the calls; rate and time left are those since the first call of the
+  /// phase. `rms_velocity` [m/s] is shown unless it is NaN. Costs a clock reading unless it is time
+  /// to write.
   void show(std::string_view label, double time, double total, const StepRecord& record,
             double rms_velocity = std::numeric_limits<double>::quiet_NaN());
 
   /// Ends the line, if one is being rewritten, with what was shown last. To be called before
-  /// anything else is printed.
+  /// anything else is printed. What is shown next begins a phase.
   void finish();
-  /// finish(), then counts and clock from anew: for the next phase.
-  void restart();
 
  private:
-  double seconds_left(double now) const;
   std::string line(double now) const;
-  std::string json(double now) const;
   void write(double now);
 
   StatusLine line_;
   std::function<double()> clock_;
-  // of the phase
-  bool started_ = false;
-  long steps_ = 0;  // calls after the first
+  long steps_ = -1;  // calls after the first of the phase; -1: there was none
   double first_clock_ = 0.0, first_time_ = 0.0;
   double last_written_ = 0.0;  // on the clock
   bool stale_ = false;         // shown later than written
   // what was shown last
   std::string label_;
-  double time_ = 0.0, total_ = 0.0, error_ = 0.0, contacts_ = 0.0, velocity_ = 0.0, x_ = 0.0;
+  double time_ = 0.0, total_ = 0.0, velocity_ = 0.0;
+  StepRecord record_;
 };
 
 }  // namespace ballast

@@ -123,12 +123,10 @@ size_t RowPart::size() const {
   return std::accumulate(shape.begin(), shape.end(), size_t{1}, std::multiplies<>());
 }
 
-RowLayout::RowLayout(std::string group, std::vector<RowPart> parts, size_t leading)
-    : group(std::move(group)), parts(std::move(parts)), row_size(leading) {
-  for (RowPart& part : this->parts) {
-    part.begin = row_size;
-    row_size += part.size();
-  }
+size_t RowLayout::row_size() const {
+  size_t size = leading;
+  for (const RowPart& part : parts) size += part.size();
+  return size;
 }
 
 RowLayout steps_layout() {
@@ -194,7 +192,7 @@ void add_rows(Hdf5Writer& file, RowReader& rows, const RowLayout& layout,
     describe(file, name, part.unit, part.description);
   }
   constexpr size_t most_numbers = 1 << 17;  // that are gathered: a megabyte
-  const size_t length = layout.row_size, most_rows = std::max<size_t>(1, most_numbers / length);
+  const size_t length = layout.row_size(), most_rows = std::max<size_t>(1, most_numbers / length);
   std::vector<double> gathered, values;
   rows.rewind();
   for (size_t first = 0; first < count; first += gathered.size() / length) {
@@ -206,12 +204,14 @@ void add_rows(Hdf5Writer& file, RowReader& rows, const RowLayout& layout,
       if (see) see(row);
     }
     // part by part from all of them
+    size_t begin = layout.leading;
     for (size_t p = 0; p < layout.parts.size(); ++p) {
-      const RowPart& part = layout.parts[p];
+      const size_t size = layout.parts[p].size();
       values.clear();
-      for (size_t at = part.begin; at < gathered.size(); at += length)
-        values.insert(values.end(), gathered.data() + at, gathered.data() + at + part.size());
+      for (size_t at = begin; at < gathered.size(); at += length)
+        values.insert(values.end(), gathered.data() + at, gathered.data() + at + size);
       file.write_rows(datasets[p], first, values);
+      begin += size;
     }
   }
 }

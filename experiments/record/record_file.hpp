@@ -42,19 +42,17 @@ struct RowPart {
   Hdf5Shape shape = {};  ///< of the part; {}: one number
   const char *unit = "", *description = "";
   Hdf5Number number = Hdf5Number::float64;
-  size_t begin = 0;  ///< first of its numbers in a row: RowLayout says it
 
   size_t size() const;  ///< how many numbers
 };
 
 /// What the rows of a log are, and the group of record.h5 that is made of them.
 struct RowLayout {
-  /// `leading`: numbers before the first part, which are in the log alone.
-  RowLayout(std::string group, std::vector<RowPart> parts, size_t leading = 0);
-
   std::string group;
   std::vector<RowPart> parts;
-  size_t row_size;
+  size_t leading = 0;  ///< numbers before the first part, which are in the log alone
+
+  size_t row_size() const;
 };
 
 /// One row per step: the columns of step_columns().

@@ -42,7 +42,7 @@ std::uint64_t system_key(const MechanicalSystem& system) {
 /// A log belongs to one system and has its columns: another program's or another scene's log is
 /// then refused, not misread.
 RowLogHeader header_of(const RowLayout& layout, const MechanicalSystem& system) {
-  RowLogHeader header{layout.group, system_key(system), layout.row_size};
+  RowLogHeader header{layout.group, system_key(system), layout.row_size()};
   for (const RowPart& part : layout.parts) header.text += ' ' + part.name;
   return header;
 }

@@ -2,10 +2,12 @@
 // One run: a scene to a folder of results, resumable after any kind of death.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/record/progress.hpp"
+#include "experiments/box/packing.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
@@ -14,23 +16,20 @@ struct RunOptions {
   std::string scene;                   ///< name or path
   std::vector<std::string> overrides;  ///< "dotted.key=value"
   std::filesystem::path output;        ///< the run's folder; empty: results/<scene name>
-  std::filesystem::path
-      packing_cache;  ///< where deposited packings are kept; empty: <output>/../packings
-  bool resume =
-      false;  ///< continue the run found in the folder; without it an existing run is an error
-  bool begin_or_resume = false;  ///< continue the run found in the folder, or begin one; a finished
-                                 ///< one is left as it is
-  bool deposit_only =
-      false;  ///< only see to it that the packing is in the cache; the folder is not touched
-  bool overwrite = false;    ///< replace a run found in the folder
-  bool new_packing = false;  ///< deposit again even if the cache has the packing
-  std::string
-      capture;      ///< which steps to keep as problem files (CaptureSettings::parse); empty: none
-  int threads = 1;  ///< of the solver; the results are the same whatever their number
-  std::string again;  ///< the command that goes on with this run, for a shell in any folder; empty:
-                      ///< none is told
+  /// Where deposited packings are kept; empty: <output>/../packings.
+  std::filesystem::path packing_cache;
+  /// Continues the run found in the folder, or begins one; a finished one is left as it is. Without
+  /// it an existing run is an error.
+  bool resume = false;
+  bool overwrite = false;  ///< replace a run found in the folder
+  /// Only see to it that the packing is in the cache; the folder is not touched.
+  bool deposit_only = false;
+  std::string capture;  ///< steps to keep as problem files (CaptureSettings::parse); empty: none
+  int threads = 1;      ///< of the solver; the results are the same whatever their number
+  /// The command that goes on with this run, for a shell in any folder; empty: none is told.
+  std::string again;
   double max_seconds = 1e30;  ///< wall clock: checkpoint and exit code 3 after this
-  Telling telling = Telling::reader;
+  Progress::Style style = StatusLine::style_of_stderr();
 };
 
 /// How a run ended.
@@ -52,5 +51,20 @@ struct RunEnd {
 /// checkpoint.bin, capture/ (if asked for), log/ (append-only raw rows from which the two records
 /// are made). Its page is write_report()'s (experiments/run_page).
 RunEnd run(const RunOptions& options);
+
+/// A run before its first step, as its loop needs it.
+struct PreparedRun {
+  MechanicalSystem system;
+  MotionState state;
+  StepMemory memory;
+  int driven_wall = -1;
+  std::optional<ControlVolume> control_volume;  ///< of the vibrated box
+};
+
+/// The start of the scene: as it says, or driven from its packing, which `order` says where to
+/// find. What a reader wants to know of the box is noted in the manifest. False: stopped while
+/// depositing. Throws Error.
+bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manifest,
+                 PreparedRun& run);
 
 }  // namespace ballast

@@ -1,17 +1,165 @@
 #include "experiments/run/run_folder.hpp"
 
 #include <fnmatch.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <vector>
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <limits>
+#include <string_view>
+#include <thread>
 
-#include "experiments/run/manifest.hpp"
-#include "platform/atomic_file.hpp"
+#include <nlohmann/json.hpp>
+
+#include "experiments/box/vibrated_box.hpp"
+#include "experiments/record/checkpoint.hpp"
+#include "experiments/record/recorder.hpp"
+#include "experiments/run/build_info.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
+#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
+
 namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+/// The program: version, commit, compiler, libraries.
+Json build_json() {
+  const BuildInfo& info = build_info();
+  Json json = {{"version", info.version},       {"commit", info.commit},
+               {"modified", info.modified},     {"compiler", info.compiler},
+               {"build_type", info.build_type}, {"flags", info.flags},
+               {"libraries", Json::object()}};
+  for (const auto& [name, version] : info.libraries) json["libraries"][name] = version;
+  return json;
+}
+
+/// The computer, and how busy it was when the run began.
+Json machine_json() {
+  Json json = {{"cpu", cpu_model()}, {"cores", std::thread::hardware_concurrency()}};
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  json["memory_GB"] = std::round(memory / 1e8) / 10.0;
+  double load[3] = {0.0, 0.0, 0.0};
+  const bool is_known = getloadavg(load, 3) == 3;
+  for (double& one : load) one = std::round(100.0 * one) / 100.0;
+  json["load_average"] = is_known ? Json(load) : Json(nullptr);
+  // what changes the time or the bits of a threaded BLAS
+  json["environment"] = Json::object();
+  for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"})
+    if (const char* value = std::getenv(name)) json["environment"][name] = value;
+  return json;
+}
+
+}  // namespace
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const size_t colon = line.find(':');
+    if (line.starts_with("model name") && colon + 2 < line.size()) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+Manifest::Manifest(const std::string& scene, const std::vector<std::string>& overrides,
+                   const std::string& key)
+    : Manifest(Json{{"ballast", build_json()},
+                    {"machine", machine_json()},
+                    {"scene", scene},
+                    {"overrides", Json(overrides)},
+                    {"key", key},
+                    {"started", utc_now()},
+                    {"resumed", Json::array()},
+                    {"summary", Json::object()}}) {}
+
+Manifest::Manifest(const Json& json) : json_(std::make_shared<Json>(json)) {}
+
+Manifest Manifest::read(const fs::path& file) {
+  Json json;
+  try {
+    json = Json::parse(read_whole_file(file));
+  } catch (const Json::parse_error& error) {
+    throw Error(file.string() + ": is no JSON: it cannot be read on from byte " +
+                std::to_string(error.byte));
+  }
+  // only what is read below is looked at: later programs may note more
+  const auto has = [&](const char* name, Json::value_t type) {
+    if (!json.is_object() || !json.contains(name) || json[name].type() != type)
+      throw Error(file.string() + ": is no manifest of a run: '" + name +
+                  "' is missing or of the wrong type");
+  };
+  for (const char* name : {"ballast", "machine", "summary"}) has(name, Json::value_t::object);
+  for (const char* name : {"scene", "key", "started"}) has(name, Json::value_t::string);
+  for (const char* name : {"overrides", "resumed"}) has(name, Json::value_t::array);
+  return Manifest(json);
+}
+
+void Manifest::resumed(long step) {
+  const BuildInfo& info = build_info();
+  (*json_)["resumed"].push_back(Json{{"step", step},
+                                     {"at", utc_now()},
+                                     {"commit", info.commit},
+                                     {"modified", info.modified},
+                                     {"cpu", cpu_model()}});
+}
+
+void Manifest::summary(const std::string& name, double value) {
+  (*json_)["summary"][name] = std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+void Manifest::summary(const std::string& name, const std::string& value) {
+  (*json_)["summary"][name] = value;
+}
+
+std::string Manifest::key() const { return json_->at("key").get<std::string>(); }
+
+std::string Manifest::commit() const {
+  const Json& ballast = json_->at("ballast");
+  return ballast.value("commit", "") + (ballast.value("modified", false) ? "-dirty" : "");
+}
+
+std::string Manifest::machine() const {
+  const Json& machine = json_->at("machine");
+  if (!machine.contains("cpu") || !machine["cpu"].is_string()) return "unknown";
+  std::string text = machine["cpu"].get<std::string>();
+  if (machine.contains("cores")) text += ", " + machine["cores"].dump() + " cores";
+  return one_line(text, ' ');
+}
+
+std::string Manifest::started() const { return json_->at("started").get<std::string>(); }
+
+double Manifest::summary_number(const std::string& name) const {
+  const Json& summary = json_->at("summary");
+  const auto found = summary.find(name);
+  if (found == summary.end() || !found->is_number())
+    return std::numeric_limits<double>::quiet_NaN();
+  return found->get<double>();
+}
+
+/// Names from a command line may be no UTF-8: such bytes are replaced, not refused.
+std::string Manifest::text() const {
+  return json_->dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void Manifest::write(const fs::path& file) const { write_whole_file(file, text()); }
+
 namespace {
 
 /// What a run writes: files of this pattern in this folder of its own.
@@ -31,8 +179,8 @@ constexpr RunFile run_files[] = {{"log", "steps.bin"},
                                  {"", "manifest.json"}};
 
 /// What may be in a folder before its run has begun: a run that was killed meanwhile leaves it.
-constexpr const char* beginnings[] = {"run.lock", "manifest.json", "manifest.json.tmp",
-                                      "scene.toml.tmp"};
+constexpr std::string_view beginnings[] = {"run.lock", "manifest.json", "manifest.json.tmp",
+                                           "scene.toml.tmp"};
 
 bool is_manifest(const fs::path& file) {
   try {
@@ -41,12 +189,6 @@ bool is_manifest(const fs::path& file) {
   } catch (const Error&) {
     return false;
   }
-}
-
-void remove_file(const fs::path& file) {
-  std::error_code error;
-  fs::remove(file, error);
-  if (error) throw Error(file.string() + ": cannot remove: " + error.message());
 }
 
 /// The page's figures: our scripts, known by their first line, and what gnuplot made of them.
@@ -59,25 +201,28 @@ void clear_figures(const fs::path& folder) {
   for (const fs::path& script : scripts) {
     const std::string name = script.stem().string();
     if (!read_whole_file(script).starts_with("# " + name + ": gnuplot ")) continue;
-    remove_file(script);
-    remove_file(folder / (name + ".svg"));
+    fs::remove(script);
+    fs::remove(folder / (name + ".svg"));
   }
   if (!scripts.empty()) fs::remove(folder, none);  // where nothing else is in it
 }
 
-template <class Names>
-bool has_entries_but(const fs::path& folder, const Names& names) {
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (std::find(std::begin(names), std::end(names), entry.path().filename()) == std::end(names))
-      return true;
-  return false;
+/// Removes what a run has written, by its names, and folders that are empty then.
+void clear(const fs::path& run) {
+  std::error_code none;
+  clear_figures(run / "figures");
+  for (const RunFile& file : run_files) {
+    const fs::path folder = run / file.folder;
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+      if (fnmatch(file.pattern, entry.path().filename().c_str(), 0) == 0)
+        found.push_back(entry.path());
+    for (const fs::path& path : found) fs::remove(path);
+    if (*file.folder && !found.empty()) fs::remove(folder, none);
+  }
 }
 
 }  // namespace
-
-RunFolder RunFolder::of(const fs::path& output, const std::string& scene_name) {
-  return RunFolder(output.empty() ? fs::path("results") / scene_name : output);
-}
 
 bool RunFolder::is_finished(const std::string& key) const {
   for (const fs::path& file : {manifest(), path_ / "steps.csv", path_ / "record.h5"})
@@ -90,36 +235,21 @@ void RunFolder::begin(const std::string& scene_text, const Manifest& manifest,
                       bool overwrite) const {
   create_folder(path_);
   // A folder counts as new that holds nothing but what a run leaves that died while it began.
-  const bool is_new = !has_entries_but(path_, beginnings) &&
-                      (!is_there(this->manifest()) || is_manifest(this->manifest()));
-  if (!is_new && !is_of_a_run())
+  const bool has_others =
+      std::any_of(fs::directory_iterator(path_), fs::directory_iterator(), [](const auto& entry) {
+        return std::ranges::find(beginnings, entry.path().filename()) == std::end(beginnings);
+      });
+  const bool is_new = !has_others && (!is_there(this->manifest()) || is_manifest(this->manifest()));
+  if (!is_new && !(has_run() && is_manifest(this->manifest())))
     throw Error(path_.string() +
                 ": holds files that are no run's: give a folder that is new or empty");
   if (!is_new && !overwrite)
     throw Error(path_.string() +
                 ": holds a run already: --continue goes on with it, --overwrite replaces it");
-  clear();
+  clear(path_);
   // The manifest first: a scene.toml without one could be anybody's.
   manifest.write(this->manifest());
   write_whole_file(scene(), scene_text);
-}
-
-/// Its manifest is a run's, and its scene stands beside it.
-bool RunFolder::is_of_a_run() const { return has_run() && is_manifest(manifest()); }
-
-void RunFolder::clear() const {
-  clear_figures(path_ / "figures");
-  for (const RunFile& file : run_files) {
-    std::error_code none;
-    const fs::path folder = path_ / file.folder;
-    std::vector<fs::path> found;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-      if (fnmatch(file.pattern, entry.path().filename().c_str(), 0) == 0)
-        found.push_back(entry.path());
-    for (const fs::path& path : found) remove_file(path);
-    // Where nothing else is in it.
-    if (*file.folder && !found.empty()) fs::remove(folder, none);
-  }
 }
 
 fs::path RunFolder::state_at(long step) const { return states() / printed("step_%08ld.bin", step); }
@@ -134,12 +264,38 @@ std::vector<fs::path> RunFolder::state_files() const {
 }
 
 void RunFolder::reopen(const std::string& scene_text) const {
-  if (!has_run())
-    throw Error(path_.string() + ": no run to resume: " + scene().filename().string() +
-                " is missing");
   if (read_whole_file(scene()) != scene_text)
     throw Error(path_.string() +
                 ": holds a run of other settings: give the same scene and --set, or --overwrite");
+}
+
+MechanicalSystem system_of_run(const fs::path& path, MotionState& state) {
+  const RunFolder folder(path);
+  if (!folder.has_run()) throw Error(path.string() + ": no run here: scene.toml is missing");
+  const Scene scene = read_scene(folder.scene());
+  MechanicalSystem system = scene.grains ? MechanicalSystem{} : make_system(scene, state);
+  if (is_there(folder.checkpoint()))
+    state = read_checkpoint(folder.checkpoint()).state;
+  else if (scene.grains)
+    throw Error(folder.checkpoint().string() + ": missing: the run has no state yet");
+  if (scene.grains) {
+    // the lid stands where the packing has put it; it does not move in a drive
+    const Rain rain = make_rain(scene);
+    system = box_system(scene, rain, BoxStage::drive,
+                        state.pose[rain.grains.size() + wall_lid].position.z());
+  }
+  require_same_bodies(path, system);
+  return system;
+}
+
+MechanicalSystem recorded_system(const fs::path& path, MotionState& state) {
+  const RunFolder folder(path);
+  const fs::path record = path / "record.h5";
+  if (!folder.has_run() || !is_there(record)) return system_of_run(path, state);
+  MechanicalSystem system = read_record_system(record);
+  system.friction = scene_friction(folder.scene());
+  if (is_there(folder.checkpoint())) state = read_checkpoint(folder.checkpoint()).state;
+  return system;
 }
 
 }  // namespace ballast

@@ -1,22 +1,73 @@
 #pragma once
-// The folder of one run: what is where, and who may write into it.
+// The folder of one run: what is where, who may write into it, what it says about itself
+// (manifest.json), and the bodies of the run that it holds.
+//
+//   {"ballast":  {"version", "commit", "modified", "compiler", "build_type", "flags",
+//                 "libraries": {name: version}},
+//    "machine":  {"cpu", "cores", "memory_GB", "load_average": [1, 5, 15 min],
+//                 "environment": {name: value}},
+//    "scene": name, "overrides": ["dotted.key=value"], "started": UTC,
+//    "key": scene_key() of the resolved scene,
+//    "resumed":  [{"step", "at": UTC, "commit", "modified", "cpu"}],
+//    "summary":  {name: number or text}}
+//
+// Times of day and the machine are here and nowhere else, so that records of equal runs are equal.
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "platform/atomic_file.hpp"
 
 namespace ballast {
 
-class Manifest;
+struct MechanicalSystem;
+struct MotionState;
+
+/// The processor as the kernel names it; "unknown" where it doesn't (other architectures).
+std::string cpu_model();
+
+/// Of a run, or of what else is measured and kept with its program, machine and time.
+class Manifest {
+ public:
+  /// Of a run that starts now, on this machine, with this program.
+  Manifest(const std::string& scene, const std::vector<std::string>& overrides,
+           const std::string& key);
+  /// Throws Error naming the file: missing, no JSON, no manifest.
+  static Manifest read(const std::filesystem::path& file);
+
+  /// Notes that the run goes on from `step`, now, here, with this program.
+  void resumed(long step);
+
+  /// Sets one entry of the summary; a name set before is overwritten in its place. NaN and infinity
+  /// become null.
+  void summary(const std::string& name, double value);
+  void summary(const std::string& name, const std::string& value);
+
+  std::string key() const;
+  /// Of the program that began the run; "-dirty" when it was not quite that.
+  std::string commit() const;
+  /// Processor and number of cores; "unknown" where it is not told.
+  std::string machine() const;
+  std::string started() const;  ///< UTC, "2026-11-22T09:30:00Z"
+  /// NaN when there is no such number.
+  double summary_number(const std::string& name) const;
+
+  std::string text() const;
+  /// Writes beside and renames. Throws Error.
+  void write(const std::filesystem::path& file) const;
+
+ private:
+  explicit Manifest(const nlohmann::ordered_json& json);
+  std::shared_ptr<nlohmann::ordered_json> json_;  // one manifest's alone: shared for its deleter
+};
 
 class RunFolder {
  public:
   explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
-  /// The folder `output`, or results/<scene name> where that is empty.
-  static RunFolder of(const std::filesystem::path& output, const std::string& scene_name);
-
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path scene() const { return path_ / "scene.toml"; }
   std::filesystem::path manifest() const { return path_ / "manifest.json"; }
@@ -37,17 +88,23 @@ class RunFolder {
   /// Refuses a folder with files but without a run of ours: they are somebody's, and are neither
   /// removed nor mixed with a run's.
   void begin(const std::string& scene_text, const Manifest& manifest, bool overwrite) const;
-  /// A run to continue: refuses a folder without one, or with another scene than `scene_text`.
+  /// A run to continue: refuses one of another scene than `scene_text`.
   void reopen(const std::string& scene_text) const;
 
  private:
-  bool is_of_a_run() const;
-  void clear() const;
-
   std::filesystem::path path_;
 };
 
 /// Entry of a manifest's summary: steps that are still to be done. 0 is written last of all.
 inline constexpr const char* steps_left_entry = "steps_left";
+
+/// The system of a run's folder, rebuilt from its scene.toml and packing, with its latest
+/// checkpointed state. Throws Error, also where a mesh is not the one any more that the run began
+/// with.
+MechanicalSystem system_of_run(const std::filesystem::path& folder, MotionState& state);
+
+/// The same for looking at, not for stepping: bodies, walls and shapes come from record.h5 where
+/// there is one, whatever has become of the scene's files. How walls move is not in it.
+MechanicalSystem recorded_system(const std::filesystem::path& folder, MotionState& state);
 
 }  // namespace ballast

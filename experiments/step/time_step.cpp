@@ -23,15 +23,9 @@ double reach_of(const RigidBody& body, const MotionState& state, size_t b, doubl
 
 }  // namespace
 
-StepSettings step_settings(const Scene& scene) {
-  StepSettings settings;
-  settings.h = scene.step;
-  settings.solver = scene.solver;
-  settings.detection = scene.detection;
-  settings.correction = scene.correction;
+double velocity_scale(const Scene& scene) {
   const double g = scene.gravity.norm();
-  settings.scale = g > 0.0 ? g * scene.step : 1.0;
-  return settings;
+  return g > 0.0 ? g * scene.step : 1.0;
 }
 
 Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
@@ -50,21 +44,21 @@ Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
   return next;
 }
 
-TimeStepper::TimeStepper(const MechanicalSystem& system, const StepSettings& settings,
-                         int driven_wall)
+TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int driven_wall)
     : system_(system),
-      settings_(settings),
+      h_(scene.step),
+      velocity_scale_(velocity_scale(scene)),
+      spec_(scene.solver),
       driven_wall_(driven_wall),
-      detector_(contact_shapes(system), settings.detection),
+      detector_(contact_shapes(system), scene.detection),
       assembler_(system),
-      correction_(system, settings.correction),
-      solver_(make_solver(settings.solver.name)),
+      correction_(system, scene.correction),
+      solver_(make_solver(spec_.name)),
       impact_law_(system.restitution),
       reach_(system.bodies.size(), 0.0) {
-  if (settings.solver.change_tolerance > 0.0)
-    solver_ = make_change_stopped(std::move(solver_),
-                                  {settings.solver.change_tolerance, settings.solver.change_every});
-  if (settings.solver.threads > 1) share_work(settings.solver.threads);
+  if (spec_.change_tolerance > 0.0)
+    solver_ = make_change_stopped(std::move(solver_), {spec_.change_tolerance, spec_.change_every});
+  if (spec_.threads > 1) share_work(spec_.threads);
 }
 
 /// Detection, assembly, solution and judgement have the same bits whatever the number of threads.
@@ -85,7 +79,7 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
   force_.setZero(v_before_.size());       // h f, per unknown
   gyroscopic_.setZero(v_before_.size());  // impulse of the gyroscopic term
   v_free_ = v_before_;
-  const double h = settings_.h;
+  const double h = h_;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
     const int first = assembler_.first_dof(static_cast<int>(b));
     if (first < 0) continue;
@@ -112,10 +106,10 @@ void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
   const double g = system_.gravity.norm();
   // Two bodies further apart than the sum of their reaches cannot touch within the step.
   for (size_t b = 0; b < system_.bodies.size(); ++b)
-    reach_[b] = reach_of(system_.bodies[b], mid, b, settings_.h, g);
+    reach_[b] = reach_of(system_.bodies[b], mid, b, h_, g);
   detector_.detect(mid.pose, reach_, contacts_);
   // A contact that was there in the last step begins with the impulse that it had then.
-  if (settings_.solver.warm_start)
+  if (spec_.warm_start)
     carry_impulses(memory.contacts, memory.impulses, contacts_, carried_);
   else
     carried_.assign(contacts_.size(), Vec3::Zero());
@@ -132,13 +126,13 @@ void require_finite(const SolverRun& run, const std::string& solver, double time
 void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   assembler_.to_rows(carried_, impulses_);
   Budget budget;
-  budget.tolerance = settings_.solver.tolerance * settings_.velocity_scale();
-  budget.max_iterations = settings_.solver.max_iterations;
-  budget.max_seconds = settings_.solver.max_seconds;
+  budget.tolerance = spec_.tolerance * velocity_scale_;
+  budget.max_iterations = spec_.max_iterations;
+  budget.max_seconds = spec_.max_seconds;
   // validates, solves and judges; the judge's error is what the record says
   SolverRun run = impact_law_.solve(runner_, *solver_, problem_, assembler_.rebound(),
                                     std::move(impulses_), budget);
-  require_finite(run, settings_.solver.name, record.time);
+  require_finite(run, spec_.name, record.time);
   impulses_ = std::move(run.solved.impulses);
   error_ = run.error;
   record.iterations = run.solved.iterations;
@@ -176,7 +170,7 @@ void TimeStepper::account_energy(double mid_time, StepRecord& record) {
       (body.is_wall() ? record.work_load : record.work_prescribed) += force_[dof] * mean;
       if (d < body.freedom.translations && !body.is_wall())
         record.work_gravity +=
-            mass[dof] * settings_.h * body.freedom.axes.col(d).dot(system_.gravity) * mean;
+            mass[dof] * h_ * body.freedom.axes.col(d).dot(system_.gravity) * mean;
     }
   }
   record.work_prescribed -= wall_power;
@@ -205,7 +199,7 @@ void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record)
     if (!memory.impulses[c].isZero(0.0)) overlap += depth;
     // An impulse over h is the mean force of the step.
     if (driven_wall_ >= 0 && (contact.body_a == driven_wall_ || contact.body_b == driven_wall_))
-      record.wall_force += std::abs(memory.impulses[c].dot(contact.normal)) / settings_.h;
+      record.wall_force += std::abs(memory.impulses[c].dot(contact.normal)) / h_;
   }
   record.contacts = static_cast<double>(contacts_.size());
   if (record.active_contacts > 0) record.penetration_mean = overlap / record.active_contacts;
@@ -217,7 +211,7 @@ void TimeStepper::finish_motion(double end_time, MotionState& state) {
   for (size_t b = 0; b < state.pose.size(); ++b) {
     if (system_.bodies[b].is_wall() && system_.bodies[b].wall.motion == WallMotion::prescribed)
       state.velocity[b] = prescribed_velocity(system_.bodies[b], end_time);
-    state.pose[b] = moved(mid_.pose[b], state.velocity[b], state.spin[b], 0.5 * settings_.h);
+    state.pose[b] = moved(mid_.pose[b], state.velocity[b], state.spin[b], 0.5 * h_);
   }
   ++state.step;
   state.time = end_time;
@@ -226,7 +220,7 @@ void TimeStepper::finish_motion(double end_time, MotionState& state) {
 StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   StepRecord record;
   Stopwatch clock;  // restart() ends a phase and begins the next
-  const double h = settings_.h;
+  const double h = h_;
   const double mid_time = state.time + 0.5 * h, end_time = (state.step + 1) * h;
   record.time = end_time;
   // A step of Moreau and Jean, of which this is the first half:

@@ -23,18 +23,8 @@
 
 namespace ballast {
 
-struct StepSettings {
-  double h = 2e-4;  ///< [s]
-  SolverSpec solver;
-  DetectionSettings detection;
-  CorrectionSpec correction;
-  /// Tolerances are quoted relative to this velocity [m/s]: g h, or 1 m/s where there is no
-  /// gravity.
-  double velocity_scale() const { return scale; }
-  double scale = 1.0;
-};
-
-StepSettings step_settings(const Scene& scene);
+/// Tolerances are quoted relative to this velocity [m/s]: g h, or 1 m/s where there is no gravity.
+double velocity_scale(const Scene& scene);
 
 /// Throws Error naming time [s] and solver where the impulses are not finite: no step can follow.
 void require_finite(const SolverRun& run, const std::string& solver, double time);
@@ -42,9 +32,9 @@ void require_finite(const SolverRun& run, const std::string& solver, double time
 /// Steps one system. Holds no state of the motion: that is the caller's MotionState and StepMemory.
 class TimeStepper {
  public:
-  /// `driven_wall`: whose motion and load the record reports (-1: none). Throws UnknownSolver,
-  /// MissingSolver.
-  TimeStepper(const MechanicalSystem& system, const StepSettings& settings, int driven_wall);
+  /// Of the scene only step, solver, detection and correction count. `driven_wall`: whose motion
+  /// and load the record reports (-1: none). Throws UnknownSolver, MissingSolver.
+  TimeStepper(const MechanicalSystem& system, const Scene& scene, int driven_wall);
 
   /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite.
   StepRecord step(MotionState& state, StepMemory& memory);
@@ -72,7 +62,8 @@ class TimeStepper {
   void finish_motion(double end_time, MotionState& state);
 
   const MechanicalSystem& system_;
-  StepSettings settings_;
+  double h_, velocity_scale_;
+  SolverSpec spec_;
   int driven_wall_;
   std::unique_ptr<WorkerTeam> team_;  // null: one thread
   ContactDetector detector_;

@@ -8,7 +8,7 @@
 
 #include "experiments/box/packing.hpp"
 #include "experiments/record/recorder.hpp"
-#include "experiments/run/prepared_run.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/mass_properties.hpp"

@@ -4,7 +4,7 @@
 
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/page/html.hpp"
-#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "tests/experiments/compare/hand_made_row.hpp"

@@ -3,7 +3,7 @@
 #include "experiments/compare/live_page.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/page/plot.hpp"
-#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "tests/experiments/compare/hand_made_live.hpp"
 #include "tests/support/browser.hpp"
 

@@ -288,11 +288,12 @@ Table grain_values() {
 
 std::vector<Table> heap_values() {
   MotionState state;
-  const MechanicalSystem system = make_system(heap(), state);
-  StepSettings settings;
-  settings.solver.name = "pgs";
-  settings.solver.max_iterations = 50;
-  TimeStepper stepper(system, settings, -1);
+  Scene scene = heap();
+  scene.solver.name = "pgs";
+  scene.solver.tolerance = 1e-3 / velocity_scale(scene);  // of 1 m/s
+  scene.solver.max_iterations = 50;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, scene, -1);
   StepMemory memory;
   stepper.step(state, memory);
   const FrictionProblem& problem = stepper.problem();
@@ -324,7 +325,7 @@ std::vector<Table> box_values() {
   std::vector<Table> tables = {deposit_steps.take(), packing_values(packing),
                                state_values("packing_bodies", system, state)};
 
-  TimeStepper stepper(system, step_settings(scene), system.first_driven_wall());
+  TimeStepper stepper(system, scene, system.first_driven_wall());
   StepTable drive_steps("drive", 1);
   StepRecord step;
   for (int k = 0; k < 40; ++k) {

@@ -1,8 +1,7 @@
 // What the docs quote, cite and link to is there, and their prose can be read in an editor.
 
 #include <algorithm>
-#include <cctype>
-#include <sstream>
+#include <regex>
 
 #include "tests/catch.hpp"
 #include "tests/house/source_tree.hpp"
@@ -55,49 +54,22 @@ std::vector<std::string> prose(const std::string& text) {
 /// Targets of the links to files of this project: `[words](target)` or `[words](<target>)`, without
 /// `#part`.
 std::vector<std::string> links(const std::string& text) {
-  std::vector<std::string> found;
-  for (size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
-    std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
-    if (target.starts_with('<')) target = target.substr(1, target.size() - 2);
-    if (target.starts_with("http") || target.starts_with("#")) continue;
-    found.push_back(target.substr(0, target.find('#')));
-  }
-  return found;
+  static const std::regex link(R"(\]\(<?(?!http|#)([^)>#]+))");
+  return matches(text, link);
 }
 
 /// What stands in backticks and looks like a path of the sources: `solvers/seam/solver.hpp`, a
 /// module without its suffix, or a folder. Placeholders (<room>, *, foo) are not paths.
 std::vector<std::string> cited_paths(const std::string& text) {
-  const std::vector<std::string> tops = {"platform/", "geometry/",    "problems/",
-                                         "solvers/",  "experiments/", "tests/"};
-  std::vector<std::string> found;
-  for (const std::string& line : lines_of(text)) {
-    std::istringstream pieces(line);
-    bool quoted = false;
-    for (std::string piece; std::getline(pieces, piece, '`'); quoted = !quoted) {
-      const bool path = std::any_of(tops.begin(), tops.end(),
-                                    [&](const auto& top) { return piece.starts_with(top); });
-      if (quoted && path && piece.find_first_of(" <*{") == std::string::npos &&
-          piece.find("/foo") == std::string::npos)
-        found.push_back(piece);
-    }
-  }
-  return found;
+  static const std::regex path(
+      R"(`((?:platform|geometry|problems|solvers|experiments|tests)/(?![^`]*foo)[^` <*{]*)`)");
+  return matches(text, path);
 }
 
 /// The pages that a source names in a comment or a message: docs/manual/plans.md.
 std::vector<std::string> cited_pages(const std::string& text) {
-  std::vector<std::string> found;
-  for (size_t at = text.find("docs/"); at != std::string::npos; at = text.find("docs/", at + 1)) {
-    size_t end = at;
-    while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) ||
-                                 std::string_view("_/.-").find(text[end]) != std::string::npos))
-      ++end;
-    const size_t suffix = text.substr(at, end - at).rfind(".md");
-    const std::string page = suffix == std::string::npos ? "" : text.substr(at, suffix + 3);
-    if (!page.empty() && page.find("..") == std::string::npos) found.push_back(page);
-  }
-  return found;
+  static const std::regex page(R"((docs/(?!measured/\.\.)[\w/.-]*?\.md))");
+  return matches(text, page);
 }
 
 bool is_in_the_tree(const std::string& path) {
@@ -107,23 +79,9 @@ bool is_in_the_tree(const std::string& path) {
 
 /// Words that look like a commit: seven hexadecimal digits or more, letters and figures mixed.
 std::vector<std::string> commits(const std::string& text) {
-  const auto in_word = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_' || c == '-';
-  };
-  std::vector<std::string> found;
-  std::string word;
-  for (const char c : text + " ") {
-    if (in_word(c)) {
-      word += c;
-      continue;
-    }
-    const bool hexadecimal = word.find_first_not_of("0123456789abcdef") == std::string::npos;
-    if (word.size() >= 7 && hexadecimal && word.find_first_of("abcdef") != std::string::npos &&
-        word.find_first_of("0123456789") != std::string::npos)
-      found.push_back(word);
-    word.clear();
-  }
-  return found;
+  static const std::regex commit(
+      R"((?:^|[^\w.-])((?=[0-9]*[a-f])(?=[a-f]*[0-9])[0-9a-f]{7,})(?![\w.-]))");
+  return matches(text, commit);
 }
 
 /// Pages -> least number of links from README.md to them.
@@ -225,15 +183,13 @@ TEST_CASE("the reader of docs sees what is forbidden") {
 }
 
 TEST_CASE("what docs/house/adding_a_solver.md quotes is what the files say") {
-  std::istringstream lines(content(root() / "docs" / "house" / "adding_a_solver.md"));
+  static const std::regex named("`(solvers/[^`]*)`");
   std::string file, quotation;
   bool inside = false;
   int quotations = 0;
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : lines_of(content(root() / "docs/house/adding_a_solver.md"))) {
     if (!inside) {  // the last file that was named before a block is the one quoted
-      for (size_t at = line.find("`solvers/"); at != std::string::npos;
-           at = line.find("`solvers/", at + 1))
-        file = line.substr(at + 1, line.find('`', at + 1) - at - 1);
+      for (const std::string& name : matches(line, named)) file = name;
       inside = line == "```cpp" || line == "```cmake";
       quotation.clear();
     } else if (line == "```") {

@@ -24,16 +24,18 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern) {
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
+    found.push_back((*at)[1]);
+  return found;
+}
+
 SourceFile parse_source(const std::string& path, const std::string& text) {
+  static const std::regex include(R"((?:^|\n)[ \t]*#include[ \t]+(["<][^">\n]+))");
   SourceFile file{path, text, {}};
-  for (const std::string& line : lines_of(text)) {
-    std::istringstream words(line);
-    std::string word, header;
-    if (!(words >> word >> header) || word != "#include") continue;
-    const bool own = header[0] == '"';
-    const size_t end = header.find(own ? '"' : '>', 1);
-    if (end != std::string::npos) file.includes.push_back({header.substr(1, end - 1), own});
-  }
+  for (const std::string& header : matches(text, include))
+    file.includes.push_back({header.substr(1), header[0] == '"'});
   return file;
 }
 
@@ -98,39 +100,24 @@ Arrows doors() {
   return rooms;
 }
 
-std::vector<std::set<std::string>> rings(const Arrows& arrows) {
-  struct Node {
-    int index = -1, low = 0;
-    bool on_stack = false;
-  };
-  std::map<std::string, Node> nodes;
-  std::vector<std::string> stack;
-  std::vector<std::set<std::string>> found;
-  int next_index = 0;
-  const std::function<void(const std::string&)> visit = [&](const std::string& name) {
-    Node& node = nodes[name];
-    node.index = node.low = next_index++;
-    node.on_stack = true;
-    stack.push_back(name);
-    if (const auto out = arrows.find(name); out != arrows.end())
-      for (const std::string& to : out->second) {
-        if (nodes[to].index < 0) visit(to);
-        if (nodes[to].on_stack) node.low = std::min(node.low, nodes[to].low);
-      }
-    if (node.low != node.index) return;
-    std::set<std::string> ring;
-    std::string top;
+std::set<std::string> ring(Arrows arrows) {
+  // What leads nowhere goes, and arrows to it with it; then, backwards, what nothing leads to.
+  for (int way = 0; way < 2; ++way) {
+    size_t before = 0;
     do {
-      top = stack.back();
-      stack.pop_back();
-      nodes[top].on_stack = false;
-      ring.insert(top);
-    } while (top != name);
-    if (ring.size() > 1) found.push_back(ring);
-  };
-  for (const auto& [name, ignored] : arrows)
-    if (nodes[name].index < 0) visit(name);
-  return found;
+      before = arrows.size();
+      for (auto& [from, all] : arrows)
+        std::erase_if(all, [&](const std::string& to) { return !arrows.contains(to); });
+      std::erase_if(arrows, [](const auto& arrow) { return arrow.second.empty(); });
+    } while (arrows.size() != before);
+    Arrows turned;
+    for (const auto& [from, all] : arrows)
+      for (const std::string& to : all) turned[to].insert(from);
+    arrows = std::move(turned);
+  }
+  std::set<std::string> names;
+  for (const auto& [from, all] : arrows) names.insert(from);
+  return names;
 }
 
 size_t columns(std::string_view line) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ using Arrows = std::map<std::string, std::set<std::string>>;
 std::filesystem::path root();
 std::string content(const std::filesystem::path& file);
 std::vector<std::string> lines_of(const std::string& text);
+/// The first group of every match.
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern);
 
 SourceFile parse_source(const std::string& path, const std::string& text);
 /// Every .hpp and .cpp below the top folders, tests included when asked for. Sorted by path.
@@ -47,8 +50,9 @@ Arrows doors();
 Arrows read_rooms(const std::string& text, const std::string& folder,
                   std::map<std::string, std::string>& folder_of);
 
-/// Groups of names that lead to each other in a ring (Tarjan 1972); empty when there is none.
-std::vector<std::set<std::string>> rings(const Arrows& arrows);
+/// Names that lead to themselves in a ring, and what lies between two rings; empty when there is
+/// none.
+std::set<std::string> ring(Arrows arrows);
 
 /// Characters that a reader sees, not bytes: UTF-8 continuation bytes are not counted.
 size_t columns(std::string_view line);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "experiments/record/checkpoint.hpp"
 #include "experiments/record/recorder.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/pose.hpp"
@@ -134,12 +135,29 @@ inline bool same_bits(const StepRecord& a, const StepRecord& b) {
     if (!same_bits(a.*column.value, b.*column.value)) return false;
   return true;
 }
+inline bool same_bits(const ContactPoint& a, const ContactPoint& b) {
+  return a.body_a == b.body_a && a.body_b == b.body_b && a.feature == b.feature &&
+         same_bits(a.normal, b.normal) && same_bits(a.position, b.position) &&
+         same_bits(a.gap, b.gap);
+}
 template <class Value>
 bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
   if (a.size() != b.size()) return false;
   for (size_t k = 0; k < a.size(); ++k)
     if (!same_bits(a[k], b[k])) return false;
   return true;
+}
+inline bool same_bits(const MotionState& a, const MotionState& b) {
+  return a.step == b.step && same_bits(a.time, b.time) && same_bits(a.pose, b.pose) &&
+         same_bits(a.velocity, b.velocity) && same_bits(a.spin, b.spin);
+}
+inline bool same_bits(const Checkpoint& a, const Checkpoint& b) {
+  const DepositState &p = a.deposit, &q = b.deposit;
+  return a.key == b.key && a.phase == b.phase && same_bits(a.state, b.state) &&
+         same_bits(a.memory.contacts, b.memory.contacts) &&
+         same_bits(a.memory.impulses, b.memory.impulses) && same_bits(p.lid, q.lid) &&
+         same_bits(p.top, q.top) && same_bits(p.rain_time, q.rain_time) &&
+         same_bits(p.rest_velocity, q.rest_velocity);
 }
 
 }  // namespace ballast

@@ -32,7 +32,7 @@ TEST_CASE("Copies side by side are the packing again and again") {
   }
   CHECK(six.memory.contacts.size() == 6 * one.memory.contacts.size() - inner);
   const auto deepest = [&](BenchStart& start) {
-    TimeStepper stepper(start.system, step_settings(box.scene), -1);
+    TimeStepper stepper(start.system, box.scene, -1);
     double depth = 0.0;
     for (int k = 0; k < 5; ++k)
       depth = std::max(depth, stepper.step(start.state, start.memory).penetration_max);

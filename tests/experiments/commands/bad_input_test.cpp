@@ -35,7 +35,7 @@ TEST_CASE("a wrong command line is exit code 2") {
       {{"run", scene, "--fast"}, "--fast"},
       {{"run", scene, "more"}, "more"},
       {{"run", scene, "--set"}, "--set"},
-      {{"run", scene, "--resume", "--overwrite"}, "--resume"},
+      {{"run", scene, "--overwrite", "--continue"}, "--continue"},
       {{"run", scene, "--max-seconds", "0"}, "--max-seconds"},
       {{"run", scene, "--max-seconds", "nan"}, "--max-seconds"},
       {{"run", scene, "--max-seconds", "soon"}, "soon"},
@@ -169,16 +169,16 @@ TEST_CASE("a folder that can't take the run is exit code 1") {
   };
   fails(run(in_the_way + "/below"), {in_the_way});
   fails(run("/proc/ballast"), {"/proc/ballast"});
-  fails(run(output, {"--resume"}), {output, "no run"});
   REQUIRE(run(output).status == 0);
   fails(run(output), {output, "--overwrite"});
-  fails(run(output, {"--resume", "--set", "body.0.mass=2"}), {output, "other settings"});
+  fails(run(output, {"--continue", "--set", "body.0.mass=2"}), {output, "other settings"});
   CHECK(run(output, {"--overwrite"}).status == 0);
 
   // its checkpoint cut short
   const std::string checkpoint = output + "/checkpoint.bin";
   std::filesystem::resize_file(checkpoint, std::filesystem::file_size(checkpoint) / 2);
-  fails(run(output, {"--resume"}), {checkpoint, "truncated"});
+  std::filesystem::remove(output + "/steps.csv");  // it is unfinished
+  fails(run(output, {"--continue"}), {checkpoint, "truncated"});
   fails(ballast_program({"check", checkpoint}), {checkpoint, "truncated"});
   fails(ballast_program({"export", output, "--output", output + "/a.obj"}),
         {checkpoint, "truncated"});

@@ -1,7 +1,5 @@
 // What a run says at its end, through the program itself.
 
-#include <nlohmann/json.hpp>
-
 #include "experiments/commands/command.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
@@ -74,20 +72,9 @@ TEST_CASE("the page of such a run begins with it") {
   CHECK(told < page.find("The run in numbers"));
 }
 
-TEST_CASE("quiet is quiet, and for programs every line is an object") {
+TEST_CASE("quiet is quiet") {
   const ProgramResult quiet = run_heavy({"--quiet"});
   CHECK(quiet.status == 0);
   CHECK(quiet.output.empty());
   CHECK(quiet.errors.empty());
-  const ProgramResult told = run_heavy({"--json"});
-  CHECK(told.status == 0);
-  CHECK(told.errors.empty());
-  nlohmann::json last;
-  for (const std::string& line : split(told.output.substr(0, told.output.size() - 1), '\n'))
-    last = nlohmann::json::parse(line);
-  CHECK(last["event"] == "end");
-  CHECK(last["exit_code"] == 0);
-  CHECK_THAT(last["to_be_known"][0].get<std::string>(), Catch::Contains("reached the tolerance"));
-  check_failure(ballast_program({"run", "zeno_ball", "--quiet", "--json"}), ExitCode::usage,
-                {"--quiet"});
 }

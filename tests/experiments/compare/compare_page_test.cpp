@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/page/html.hpp"
-#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/compare/hand_made_row.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "experiments/page/plot.hpp"
-#include "experiments/run/manifest.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "experiments/paper/sections.hpp"
-#include "experiments/run/manifest.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/hdf5_file.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -74,7 +73,7 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
   for (const StepColumn& column : step_columns())
     record.add(std::string("steps/") + column.name, record_column(steps, column.value));
   record.commit();
-  Manifest manifest(scene.name, run.overrides, run_key(run));
+  Manifest manifest(scene.name, run.overrides, run.key);
   const double g = scene.gravity.norm();
   manifest.summary("grains", scene.grains->count);
   manifest.summary("grain_mass_kg", mass);

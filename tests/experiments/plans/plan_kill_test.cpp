@@ -74,7 +74,7 @@ TEST_CASE("children die with a plan that is killed") {
       "scene = \"vibrated_box_small\"\n[[run]]\nname = \"long\"\nset = [\"scene.duration=100\"]\n");
   const fs::path results = folder.path() / "results";
   const PlannedRun run = read_plan(file).runs[0];
-  const fs::path log = results / "logs" / (run_key(run) + ".log");
+  const fs::path log = results / "logs" / (run.key + ".log");
   const Stopwatch watch;
   {
     const auto planned =

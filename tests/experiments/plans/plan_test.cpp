@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/box/vibrated_box.hpp"
 #include "experiments/plans/plan.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -28,8 +29,8 @@ std::string error_of(const std::string& text) {
   return "";
 }
 
-PlannedRun run_with(std::vector<std::string> overrides) {
-  return {"run", "vibrated_box_small", std::move(overrides)};
+std::string key_with(const std::vector<std::string>& overrides) {
+  return planned_run("run", "vibrated_box_small", overrides).key;
 }
 
 }  // namespace
@@ -80,7 +81,7 @@ set = ["scene.duration=1"]
   for (size_t k = 0; k < plan.runs.size(); ++k) {
     CHECK(again.runs[k].name == plan.runs[k].name);
     CHECK(again.runs[k].overrides == plan.runs[k].overrides);
-    CHECK(run_key(again.runs[k]) == run_key(plan.runs[k]));
+    CHECK(again.runs[k].key == plan.runs[k].key);
   }
 }
 
@@ -147,26 +148,35 @@ TEST_CASE("a plan that is too much to look at is refused before its runs are") {
 }
 
 TEST_CASE("a run is known by what it computes") {
-  const std::string key = run_key(run_with({}));
+  const std::string key = key_with({});
   CHECK(key.size() == 16);
-  CHECK(run_key(run_with({"drive.frequency=20"})) == key);  // what the scene says anyway
-  CHECK(run_key(run_with({"drive.frequency=20.0"})) == key);
-  CHECK(run_key(run_with({"drive.frequency=7", "drive.frequency=20"})) == key);
-  CHECK(run_key(run_with({"drive.frequency=21"})) != key);
-  CHECK(run_key(run_with({"solver.name=pgs"})) != key);
-  CHECK(run_key(run_with({"solver.tolerance=1e-4"})) != key);
-  PlannedRun renamed = run_with({});
-  renamed.name = "another";
-  CHECK(run_key(renamed) == key);
-}
-
-TEST_CASE("an edited mesh makes another run of the same words") {
+  CHECK(key_with({"drive.frequency=20"}) == key);  // what the scene says anyway
+  CHECK(key_with({"drive.frequency=20.0"}) == key);
+  CHECK(key_with({"drive.frequency=7", "drive.frequency=20"}) == key);
+  for (const char* other : {"drive.frequency=21", "solver.name=pgs", "solver.tolerance=1e-4"})
+    CHECK(key_with({other}) != key);
+  CHECK(planned_run("another", "vibrated_box_small", {}).key == key);
+  // the same words, another mesh
   const TemporaryFolder folder;
   const fs::path mesh = folder.path() / "grain.stl";
-  const PlannedRun run = run_with({"grains.meshes=[\"" + mesh.string() + "\"]"});
+  const std::vector<std::string> meshes{"grains.meshes=[\"" + mesh.string() + "\"]"};
   write_mesh(mesh, make_box(Vec3(1, 1, 2)));
-  const std::string key = run_key(run);
-  CHECK(run_key(run) == key);
+  const std::string of_mesh = key_with(meshes);
+  CHECK(key_with(meshes) == of_mesh);
   write_mesh(mesh, make_box(Vec3(1, 1, 2.5)));
-  CHECK(run_key(run) != key);
+  CHECK(key_with(meshes) != of_mesh);
+}
+
+TEST_CASE("what a run amounts to: its packing, its steps, and its work") {
+  const std::vector<std::string> overrides{"scene.duration=0.06", "grains.count=20"};
+  const PlannedRun box = planned_run("a", "vibrated_box_small", overrides);
+  CHECK(box.packing == packing_key(read_scene(find_scene(box.scene), overrides)));
+  CHECK(box.steps == 300);  // 0.06 s of 2e-4 s
+  CHECK(box.work == 20.0 * 300.0);
+  // a third of the longest rain and the lid's 0.1 s at 5e-4 s, the rest's 0.05 s at 2e-4 s
+  CHECK(box.packing_work == Approx(20.0 * ((1.0 + 0.1) / 5e-4 + 0.05 / 2e-4)));
+  const PlannedRun body = planned_run("a", "incline", {});
+  CHECK(body.packing.empty());
+  CHECK(body.packing_work == 0.0);
+  CHECK(body.work == static_cast<double>(body.steps));
 }

@@ -27,10 +27,10 @@ vary."grains.seed" = [1, 2]
 
 inline std::filesystem::path folder_of(const std::filesystem::path& results,
                                        const PlannedRun& run) {
-  return results / "runs" / run_key(run);
+  return results / "runs" / run.key;
 }
 inline bool is_finished(const std::filesystem::path& results, const PlannedRun& run) {
-  return RunFolder(folder_of(results, run)).is_finished(run_key(run));
+  return RunFolder(folder_of(results, run)).is_finished(run.key);
 }
 
 /// The bits of every run of a plan.

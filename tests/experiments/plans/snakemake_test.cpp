@@ -1,7 +1,6 @@
-#include "experiments/plans/snakemake.hpp"
-
 #include <nlohmann/json.hpp>
 
+#include "experiments/plans/plan_runner.hpp"
 #include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/plans/small_plan.hpp"
@@ -22,8 +21,8 @@ TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is 
   CHECK(list["packings"].size() == 2);
   const Plan again = read_plan(jobs / "plan.toml");
   for (size_t k = 0; k < plan.runs.size(); ++k) {
-    const std::string key = run_key(plan.runs[k]);
-    CHECK(run_key(again.runs[k]) == key);
+    const std::string key = plan.runs[k].key;
+    CHECK(again.runs[k].key == key);
     REQUIRE(list["runs"].contains(key));
     std::vector<std::string> words = list["runs"][key]["arguments"];
     CHECK(fs::path(words[1]).is_absolute());
@@ -42,7 +41,7 @@ TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is 
 TEST_CASE("the Snakefile's last rule asks the program whether all is finished") {
   const TemporaryFolder folder;
   const fs::path results = folder.path() / "results", jobs = folder.path() / "jobs";
-  const Plan plan{"one", {{"a", "incline", {"scene.duration=0.005"}}}};
+  const Plan plan{"one", {planned_run("a", "incline", {"scene.duration=0.005"})}};
   write_snakemake(plan, results, BALLAST_PROGRAM, jobs);
   const auto list = nlohmann::json::parse(read_whole_file(jobs / "runs.json"));
   CHECK(list["program"] == BALLAST_PROGRAM);

@@ -4,8 +4,6 @@
 #include <cstdlib>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -76,7 +74,7 @@ TEST_CASE("phases, resumed runs and silence") {
       progress.show("rain", 0.01 * step, 3.0, record, 0.5);
       now += 1.0;
     }
-    progress.restart();
+    progress.finish();
     out.str("");
     // a phase that is entered in its middle: the rate counts from there
     for (int step = 1; step <= 12; ++step) {
@@ -96,20 +94,4 @@ TEST_CASE("where the end is not known, neither part nor time left is made up") {
     progress.show("rain", 1e-3 * step, std::nan(""), record, 0.5);
   progress.finish();
   CHECK_THAT(out.str(), Contains("rain   ? %  0.009 s") && !Contains("left") && !Contains("nan"));
-}
-
-TEST_CASE("for programs every line is an object with units in its names") {
-  const std::string text = told(Progress::Style::json, 100, 0.1);  // 10 s
-  std::istringstream lines(text);
-  std::string line;
-  int count = 0;
-  while (std::getline(lines, line)) {
-    const nlohmann::json object = nlohmann::json::parse(line);
-    CHECK(object["event"] == "progress");
-    CHECK(object["phase"] == "drive");
-    CHECK(object["ms_per_step"] == Approx(100.0));
-    CHECK(object["rms_velocity_m_s"].is_null());
-    ++count;
-  }
-  CHECK((count >= 9 && count <= 11));  // one a second
 }

@@ -1,21 +1,65 @@
 #include "experiments/record/record_file.hpp"
 
+#include <functional>
+
+#include "platform/program.hpp"
 #include "platform/hdf5_file.hpp"
+#include "tests/experiments/record/sample_record.hpp"
 #include "tests/support/hdf5_attribute.hpp"
-#include "tests/support/sample_record.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Row k has the numbers 10 k, 10 k + 1, ...
+void write_log(const fs::path& path, long rows, size_t row_size) {
+  RowWriter log(path, {"rows", 0, row_size});
+  std::vector<double> row(row_size);
+  for (long k = 0; k < rows; ++k) {
+    for (size_t i = 0; i < row_size; ++i)
+      row[i] = static_cast<double>(10 * k) + static_cast<double>(i);
+    log.append(row);
+  }
+  log.flush();
+}
+
+/// A number of /proc/self/status, such as "VmRSS:" [kB].
+long memory_entry(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word && word != name) {
+  }
+  long kilobytes = 0;
+  status >> kilobytes;
+  return kilobytes;
+}
+
+/// By how many kB `work` raises the resident memory of a process of its own, at its peak.
+/// Sanitizers keep what is freed: 0 under them.
+long peak_memory(const std::function<void()>& work) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  work();
+  return 0;
+#endif
+  const ChildResult child = run_in_child(1e9, [&] {
+    const long before = memory_entry("VmRSS:");
+    work();
+    return std::to_string(memory_entry("VmHWM:") - before);
+  });
+  REQUIRE(child.end == ChildEnd::complete);
+  return std::stol(child.answer);
+}
+
+}  // namespace
+
 TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest") {
-  const TemporaryFolder folder;
-  const MechanicalSystem system = sample_system();
-  Recorder recorder(folder.path(), system, 0);
-  record(recorder, system, 1, 10);
+  OpenRecord open(10);
+  const MechanicalSystem& system = open.system;
   const std::string scene(100000, 's'),
       manifest = "{\"µ\": 1}";  // longer than a compact attribute may be
-  recorder.finish(scene, manifest);
-  const fs::path path = folder.path() / "record.h5";
+  open.recorder.finish(scene, manifest);
+  const fs::path path = open.path() / "record.h5";
   const Hdf5Reader file(path);
   CHECK(hdf5_attribute(path, "/", "scene") == scene);
   CHECK(hdf5_attribute(path, "/", "manifest") == manifest);
@@ -60,22 +104,15 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
 }
 
 TEST_CASE("a broken record.h5 is an error that names it") {
-  const TemporaryFolder folder;
-  const MechanicalSystem system = sample_system();
-  const fs::path file = folder.path() / "record.h5";
-  {
-    Recorder recorder(folder.path(), system, 0);
-    record(recorder, system, 1, 300);
-    recorder.finish("", "");
-  }
+  OpenRecord open(300);
+  open.recorder.finish("", "");
+  const fs::path file = open.path() / "record.h5";
   const std::string whole = file_bytes(file);
   for (size_t part = 0; part < 40; ++part) {
     put_bytes(file, std::string_view(whole).substr(0, whole.size() * part / 40));
-    CHECK_THAT(run_error([&] { read_steps(folder.path()); }), Contains(file.string()));
-    CHECK_THAT(run_error([&] { read_poses(folder.path()); }), Contains(file.string()));
+    CHECK_THAT(run_error([&] { read_steps(open.path()); }), Contains(file.string()));
+    CHECK_THAT(run_error([&] { read_poses(open.path()); }), Contains(file.string()));
   }
-  put_bytes(file, whole);
-  check_record(folder.path(), system, 300);
 }
 
 TEST_CASE("bodies, walls and shapes come back from the record with their bits") {
@@ -123,13 +160,117 @@ TEST_CASE("a record whose datasets do not fit together is refused") {
              Contains("no such file"));
 }
 
-TEST_CASE("a log of other bodies is found out") {
+TEST_CASE("quantities of rows become datasets, more rows than are gathered at once") {
   const TemporaryFolder folder;
-  MechanicalSystem system = sample_system();
-  require_same_bodies(folder.path(), system);  // nothing to compare with
-  { Recorder recorder(folder.path(), system, 0); }
-  require_same_bodies(folder.path(), system);
-  system.bodies[0].mass *= 2.0;
-  CHECK_THAT(run_error([&] { require_same_bodies(folder.path(), system); }),
-             Contains("belongs to another system of bodies"));
+  const fs::path log = folder.path() / "rows", record = folder.path() / "a.h5";
+  constexpr long rows = 50000;  // of 48 bytes: more than two megabytes
+  write_log(log, rows, 6);
+  RowReader reader(log);
+  Hdf5Writer writer(record, Hdf5Storage::compressed);
+  const RowLayout layout{
+      "all", {{"square", {2, 2}, "m", "four"}, {"last", {}, "1", "one", Hdf5Number::int32}}, 1};
+  long seen = 0;
+  bool in_order = true;
+  reader.next();  // it begins with the first row wherever the reader was
+  add_rows(writer, reader, layout, [&](std::span<const double> row) {
+    in_order = in_order && row[0] == static_cast<double>(10 * seen++);
+  });
+  writer.commit();
+  CHECK((seen == rows && in_order));
+  const Hdf5Reader file(record);
+  CHECK(file.shape("all/last") == Hdf5Shape{rows});
+  CHECK(file.shape("all/square") == Hdf5Shape{rows, 2, 2});
+  CHECK(hdf5_attribute(record, "all/square", "unit") == "m");
+  CHECK(hdf5_attribute(record, "all/last", "description") == "one");
+  const std::vector<double> square = file.read_doubles("all/square");
+  const std::vector<int> last = file.read_ints("all/last");
+  bool fits = true;
+  for (size_t k = 0; k < rows; ++k) {
+    const double first = 10.0 * static_cast<double>(k);
+    fits = fits && last[k] == static_cast<int>(first) + 5;
+    for (size_t i = 0; i < 4; ++i)
+      fits = fits && square[4 * k + i] == first + 1 + static_cast<double>(i);
+  }
+  CHECK(fits);
+}
+
+TEST_CASE("rows that are longer than what is gathered, and none at all") {
+  const TemporaryFolder folder;
+  const fs::path log = folder.path() / "rows", record = folder.path() / "a.h5";
+  for (const long rows : {0L, 3L}) {
+    write_log(log, rows, 200000);
+    RowReader reader(log);
+    Hdf5Writer writer(record, Hdf5Storage::compressed);
+    add_rows(writer, reader, {"rows", {{"all", {100000, 2}}}});
+    writer.commit();
+    const std::vector<double> all = Hdf5Reader(record).read_doubles("rows/all");
+    REQUIRE(all.size() == static_cast<size_t>(rows) * 200000);
+    if (rows > 0) CHECK(all.back() == 20.0 + 199999.0);
+  }
+}
+
+TEST_CASE("a record takes the same memory however long its run was") {
+  const MechanicalSystem system = sample_system();
+  StepMemory memory;
+  for (int c = 0; c < 2000; ++c) {
+    const double x = std::sin(c);
+    memory.contacts.push_back({c, c + 1, 7, Vec3(0, 0, 1), Vec3(x, -x, 2 * x), -1e-6 * x});
+    memory.impulses.emplace_back(x, 0.5, x);
+  }
+  // at the end of a run of so many frames
+  const auto peak_after = [&](long frames) {
+    const TemporaryFolder folder;
+    Recorder recorder(folder.path(), system, 0, true);
+    for (long step = 1; step <= frames; ++step) {
+      const MotionState state = sample_state(system, step);
+      recorder.add_step(sample_row(step));
+      recorder.add_poses(state);
+      recorder.add_forces(state, memory, 1e-4);
+    }
+    return peak_memory([&] { recorder.finish("", ""); });
+  };
+  // 4 MB of contacts, and 27 MB
+  CHECK(peak_after(120) < peak_after(20) + 5000);
+}
+
+TEST_CASE("record.h5 has the contacts and forces of every stored frame, where they are asked for") {
+  OpenRecord open(20, true);
+  // one more frame, with a contact that has no force
+  StepMemory memory = sample_memory(2);
+  memory.impulses[0] = Vec3::Zero();
+  const MotionState state = sample_state(open.system, 25);
+  open.recorder.add_poses(state);
+  open.recorder.add_forces(state, memory, sample_step);
+  open.recorder.finish("", "");
+  const fs::path record = open.path() / "record.h5";
+  const Hdf5Reader file(record);
+  // steps 0 (none: before the first step), 5, 10, 15, 20, 25 have 0, 1, 2, 3, 0, 2 contacts
+  CHECK(file.read_ints("contacts/frame_begin") == std::vector<int>{0, 0, 1, 3, 6, 6, 8});
+  CHECK(file.read_ints("contacts/body_a") == std::vector<int>{0, 0, 1, 0, 1, 2, 0, 1});
+  CHECK(file.read_ints("contacts/body_b") == std::vector<int>{1, 1, 2, 1, 2, 3, 1, 2});
+  const double x = 15 + 0.1 * 2;
+  CHECK(same_bits(file.read_doubles("contacts/force")[17], x * sample_step / sample_step));
+  CHECK(same_bits(file.read_doubles("contacts/position")[15], x));
+  CHECK(same_bits(file.read_doubles("contacts/gap")[5], -1e-6 * x));
+  CHECK(file.read_doubles("contacts/normal")[17] == 1.0);
+  CHECK(hdf5_attribute(record, "contacts/force", "unit") == "N");
+  CHECK_FALSE(hdf5_attribute(record, "contacts/gap", "description").empty());
+
+  // read back, those without force left out
+  const RecordForces forces(record);
+  REQUIRE(forces.frame_count() == 6);
+  for (size_t k = 0; k < 6; ++k)
+    CHECK(forces.of_frame(k).size() == std::vector<size_t>{0, 1, 2, 3, 0, 1}[k]);
+  const FrameContact last = forces.of_frame(3)[2];
+  CHECK((last.body_a == 2 && last.body_b == 3));
+  CHECK(last.position == Eigen::Vector3f(15.2f, -15.2f, 30.4f));
+  CHECK(last.normal == Eigen::Vector3f::UnitZ());
+  CHECK_THAT(last.force.z(), Catch::Matchers::WithinRel(15.2f, 1e-6f));
+  CHECK_THAT(run_error([&] { forces.of_frame(6); }), Contains("has no contacts of frame 6"));
+
+  OpenRecord without(10);
+  without.recorder.finish("", "");
+  CHECK_FALSE(fs::exists(without.path() / "log" / "forces.bin"));
+  CHECK_FALSE(Hdf5Reader(without.path() / "record.h5").has("contacts"));
+  CHECK(RecordForces(without.path() / "record.h5").frame_count() == 0);
 }

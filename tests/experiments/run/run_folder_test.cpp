@@ -1,15 +1,80 @@
 #include "experiments/run/run_folder.hpp"
 
-#include "experiments/run/manifest.hpp"
-#include "platform/atomic_file.hpp"
+#include <nlohmann/json.hpp>
+
+#include "experiments/run/build_info.hpp"
+#include "problems/scene/scene_file.hpp"
 #include "tests/support/sample_run.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
 
-TEST_CASE("a run's folder is the one that was asked for, else results/<scene>") {
-  CHECK(RunFolder::of("there", "box").path() == "there");
-  CHECK(RunFolder::of("", "box").path() == fs::path("results/box"));
+TEST_CASE("the build knows what it is") {
+  const BuildInfo& info = build_info();
+  CHECK(std::count(info.version.begin(), info.version.end(), '.') == 2);
+  CHECK((info.commit == "unknown" ||
+         (info.commit.size() == 40 &&
+          info.commit.find_first_not_of("0123456789abcdef") == std::string::npos)));
+  CHECK_THAT(info.flags, Contains("-ffp-contract=off"));
+  CHECK_FALSE(info.compiler.empty());
+  for (const auto& [name, version] : info.libraries) {
+    INFO(name << " " << version);
+    CHECK((!name.empty() && !version.empty() &&
+           version.find_first_not_of("0123456789.") == std::string::npos));
+  }
+  CHECK_THAT(build_line(), Contains(info.version) && Contains(info.commit.substr(0, 12)));
+}
+
+TEST_CASE("a manifest says what a run was made by and from, and is read back") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "manifest.json";
+  Manifest manifest("vibrated_box", {"solver.name=\"pgs\"", "friction=0.5"}, "0123456789abcdef");
+  manifest.summary("ms_per_step", 41.25);
+  manifest.summary("packing", "cache/packing.bin");
+  manifest.summary("nothing", std::nan(""));
+  manifest.resumed(120);
+  manifest.summary("ms_per_step", 40.5);
+  manifest.write(file);
+  CHECK(file_bytes(file) == manifest.text());
+
+  const auto json = nlohmann::json::parse(file_bytes(file));
+  CHECK(json["ballast"]["commit"] == build_info().commit);
+  CHECK(json["ballast"]["libraries"].size() == build_info().libraries.size());
+  CHECK(json["machine"]["cores"] >= 1);
+  CHECK(json["scene"] == "vibrated_box");
+  CHECK(json["overrides"][0] == "solver.name=\"pgs\"");
+  CHECK(json["resumed"][0]["step"] == 120);
+  CHECK(json["started"].get<std::string>().size() == 20);
+  CHECK(json["summary"]["ms_per_step"] == 40.5);
+  CHECK(json["summary"]["nothing"].is_null());
+
+  const Manifest read = Manifest::read(file);
+  CHECK(read.text() == manifest.text());
+  CHECK(read.key() == "0123456789abcdef");
+  CHECK(read.summary_number("ms_per_step") == 40.5);
+  CHECK(std::isnan(read.summary_number("packing")));
+  CHECK(std::isnan(read.summary_number("no such name")));
+  // text that is no UTF-8 does not break it
+  CHECK_NOTHROW(nlohmann::json::parse(Manifest("s\xff", {}, "k").text()));
+}
+
+TEST_CASE("a manifest that is none is refused with its name") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "manifest.json";
+  const auto refusal = [&](const std::string& text) {
+    put_bytes(file, text);
+    return run_error([&] { Manifest::read(file); });
+  };
+  CHECK_THAT(run_error([&] { Manifest::read(file); }),
+             Contains(file.string()) && Contains("cannot open"));
+  CHECK_THAT(refusal("{\"scene\": "), Contains(file.string()) && Contains("is no JSON"));
+  CHECK_THAT(refusal("[1, 2]"), Contains("is no manifest"));
+  auto json = nlohmann::json::parse(Manifest("s", {}, "k").text());
+  json["key"] = 5;
+  CHECK_THAT(refusal(json.dump()), Contains("is no manifest") && Contains("'key'"));
+}
+
+TEST_CASE("where things are in a run's folder") {
   const RunFolder folder("f");
   CHECK(folder.checkpoint() == fs::path("f/checkpoint.bin"));
   CHECK(folder.state_at(1234) == fs::path("f/states/step_00001234.bin"));
@@ -79,7 +144,6 @@ TEST_CASE("a folder with somebody's files is neither emptied nor mixed into") {
 TEST_CASE("a run is gone on with where there is one of the same settings") {
   const TemporaryFolder place;
   const RunFolder folder(place.path());
-  CHECK_THAT(run_error([&] { folder.reopen("scene"); }), Contains("no run to resume"));
   begin(folder, "scene");
   folder.reopen("scene");
   CHECK_THAT(run_error([&] { folder.reopen("another scene"); }),
@@ -104,4 +168,19 @@ TEST_CASE("finished: all files, this key, and no steps left") {
   CHECK_FALSE(folder.is_finished("key"));
   Manifest("scene", {}, "key").write(folder.manifest());  // says nothing of steps
   CHECK_FALSE(folder.is_finished("key"));
+}
+
+TEST_CASE("the system of a folder without a run, or without a state, is an error that says so") {
+  const TemporaryFolder place;
+  MotionState state;
+  const auto begun = [&](const char* scene) {
+    begin(RunFolder(place.path()), resolve_scene(find_scene(scene)).text, true);
+  };
+  CHECK_THAT(run_error([&] { system_of_run(place.path(), state); }), Contains("no run here"));
+  begun("vibrated_box_small");
+  CHECK_THAT(run_error([&] { system_of_run(place.path(), state); }),
+             Contains("checkpoint.bin: missing: the run has no state yet"));
+  begun("incline");
+  CHECK(system_of_run(place.path(), state).grain_count == 1);
+  CHECK(state.step == 0);
 }

@@ -4,39 +4,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <iostream>
-#include <sstream>
 
-#include "experiments/run/prepared_run.hpp"
 #include "experiments/run/run.hpp"
 #include "platform/clock.hpp"
-#include "tests/catch.hpp"
 #include "tests/support/same_bits.hpp"
+#include "tests/support/sample_run.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder of its own that goes with the test; what a run prints is swallowed.
-class Workplace {
- public:
-  Workplace() {
-    std::string pattern = (fs::temp_directory_path() / "ballast_run_XXXXXX").string();
-    folder = mkdtemp(pattern.data());
-    old_ = std::cout.rdbuf(sink_.rdbuf());
-  }
-  ~Workplace() {
-    std::cout.rdbuf(old_);
-    fs::remove_all(folder);
-  }
-  fs::path folder;
-
- private:
-  std::ostringstream sink_;
-  std::streambuf* old_;
-};
 
 RunOptions small_run(const fs::path& output, const fs::path& packings) {
   RunOptions options;
@@ -45,6 +23,7 @@ RunOptions small_run(const fs::path& output, const fs::path& packings) {
                        "solver.max_iterations=2000"};
   options.output = output;
   options.packing_cache = packings;
+  options.style = Progress::Style::quiet;
   return options;
 }
 
@@ -67,27 +46,27 @@ bool killed_after(const RunOptions& options, int milliseconds) {
 
 TEST_CASE(
     "the same input gives the same bits: deposit, drive, and whatever stopped it in between") {
-  const Workplace place;
-  const fs::path once = place.folder / "once", again = place.folder / "again",
-                 stopped = place.folder / "stopped";
+  const TemporaryFolder place;
+  const fs::path once = place.path() / "once", again = place.path() / "again",
+                 stopped = place.path() / "stopped";
   // What stops the others comes early enough on any machine: as parts of what this one takes.
   const Stopwatch whole;
-  REQUIRE(run(small_run(once, place.folder / "p1")).code == ExitCode::ok);
+  REQUIRE(run(small_run(once, place.path() / "p1")).code == ExitCode::ok);
   const double seconds = whole.seconds();
   const std::string physics = physics_of(once), state = state_of(once);
   REQUIRE(read_steps(once).size() == 200);
 
   SECTION("a second run with a deposit of its own") {
-    REQUIRE(run(small_run(again, place.folder / "p2")).code == ExitCode::ok);
+    REQUIRE(run(small_run(again, place.path() / "p2")).code == ExitCode::ok);
     CHECK(physics_of(again) == physics);
     CHECK(state_of(again) == state);
   }
   SECTION("stopped by the time limit again and again, in the deposit and in the drive") {
-    RunOptions options = small_run(stopped, place.folder / "p3");
+    RunOptions options = small_run(stopped, place.path() / "p3");
     options.max_seconds = seconds / 6.0;
     int stops = 0;
+    options.resume = true;
     while (run(options).code == ExitCode::time_limit) {
-      options.resume = true;
       options.max_seconds *= 1.05;  // under sanitizers, beside other work: it ends all the same
       REQUIRE(++stops < 100);
     }
@@ -96,17 +75,16 @@ TEST_CASE(
     CHECK(state_of(stopped) == state);
   }
   SECTION("killed with kill -9 again and again") {
-    RunOptions options = small_run(stopped, place.folder / "p4");
+    RunOptions options = small_run(stopped, place.path() / "p4");
+    options.resume = true;
     const auto milliseconds = [&](int k) {
       return static_cast<int>(1e3 * seconds * (0.15 + 0.061 * k));
     };
     int kills = 0;
     while (kills < 6 && killed_after(options, milliseconds(kills))) {
       ++kills;
-      options.resume = fs::exists(RunFolder(stopped).scene());
     }
     CHECK(kills >= 2);
-    options.resume = true;
     REQUIRE(run(options).code == ExitCode::ok);
     CHECK(physics_of(stopped) == physics);
     CHECK(state_of(stopped) == state);
@@ -114,10 +92,10 @@ TEST_CASE(
 }
 
 TEST_CASE("what a run shows: no grain escapes, overlap stays small, the energy account closes") {
-  const Workplace place;
-  REQUIRE(run(small_run(place.folder / "run", place.folder / "p")).code == ExitCode::ok);
+  const TemporaryFolder place;
+  REQUIRE(run(small_run(place.path() / "run", place.path() / "p")).code == ExitCode::ok);
   double work = 0.0, residual = 0.0;
-  for (const StepRecord& row : read_steps(place.folder / "run")) {
+  for (const StepRecord& row : read_steps(place.path() / "run")) {
     CHECK(row.penetration_max < 0.25e-3);
     CHECK(row.penetration_mean < 5e-6);
     CHECK(row.error_rms < 1e-2 * 9.81 * 2e-4);
@@ -126,26 +104,36 @@ TEST_CASE("what a run shows: no grain escapes, overlap stays small, the energy a
   }
   CHECK(std::abs(residual) < 1e-4 * work);
   MotionState state;
-  const MechanicalSystem system = system_of_run(place.folder / "run", state);
+  const MechanicalSystem system = system_of_run(place.path() / "run", state);
   CHECK(system.grain_count == 60);
   for (int b = 0; b < system.grain_count; ++b)
     for (size_t w = system.grain_count; w < system.bodies.size(); ++w) {
       const Vec3& normal = system.bodies[w].wall.normal;
       CHECK(normal.dot(state.pose[b].position - state.pose[w].position) > 0.0);
     }
+  // what a reader wants to know of the box
+  const Manifest manifest = Manifest::read(place.path() / "run" / "manifest.json");
+  const double mass = system.mass_of_grains(), lid = manifest.summary_number("lid_m");
+  CHECK(manifest.summary_number("grains") == 60);
+  CHECK(manifest.summary_number("grain_mass_kg") == mass);
+  CHECK(manifest.summary_number("f_max_N") == Approx(3.0 * mass * 9.81));
+  CHECK(manifest.summary_number("deposit_seconds") > 0.0);
+  CHECK(lid == state.pose[60 + wall_lid].position.z());
+  CHECK(lid > manifest.summary_number("packing_top_m"));
+  CHECK(manifest.summary_number("d_min_m") > 0.0);
 }
 
 TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is") {
-  const Workplace place;
-  const fs::path folder = place.folder / "run";
-  RunOptions options = small_run(folder, place.folder / "p");
+  const TemporaryFolder place;
+  const fs::path folder = place.path() / "run";
+  RunOptions options = small_run(folder, place.path() / "p");
   options.deposit_only = true;
   REQUIRE(run(options).code == ExitCode::ok);
   CHECK_FALSE(fs::exists(folder));
-  CHECK(std::distance(fs::directory_iterator(place.folder / "p"), fs::directory_iterator()) ==
+  CHECK(std::distance(fs::directory_iterator(place.path() / "p"), fs::directory_iterator()) ==
         1);  // no lock, no part left
   options.deposit_only = false;
-  options.begin_or_resume = true;
+  options.resume = true;
   options.max_seconds = 0.01;
   int stops = 0;
   for (; run(options).code == ExitCode::time_limit; ++stops) {
@@ -160,20 +148,20 @@ TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is"
 }
 
 TEST_CASE("a folder refuses what would lose a run") {
-  const Workplace place;
-  RunOptions options = small_run(place.folder / "run", place.folder / "p");
+  const TemporaryFolder place;
+  RunOptions options = small_run(place.path() / "run", place.path() / "p");
   options.scene = "incline";
   options.overrides = {"scene.duration=0.01"};
   REQUIRE(run(options).code == ExitCode::ok);
-  CHECK_THROWS_WITH(run(options), Catch::Contains("holds a run already"));
+  CHECK_THROWS_WITH(run(options), Contains("holds a run already"));
   options.resume = true;
-  CHECK(run(options).code == ExitCode::ok);  // finished: the report again
+  CHECK(run(options).was_finished);
   options.overrides = {"scene.duration=0.02"};
-  CHECK_THROWS_WITH(run(options), Catch::Contains("other settings"));
+  CHECK_THROWS_WITH(run(options), Contains("other settings"));
   options.resume = false;
   options.overwrite = true;
   CHECK(run(options).code == ExitCode::ok);
   CHECK(read_steps(options.output).size() == 20);
   options.output = "/proc/nowhere/run";
-  CHECK_THROWS_WITH(run(options), Catch::Contains("/proc/nowhere"));
+  CHECK_THROWS_WITH(run(options), Contains("/proc/nowhere"));
 }

@@ -156,7 +156,7 @@ TEST_CASE("a bar that falls on its corner never gains energy, whatever its turn"
     MotionState state;
     const MechanicalSystem system = make_system(scene, state);
     const double before = kinetic_energy(system.bodies[0], state.velocity[0], state.spin[0]);
-    TimeStepper stepper(system, step_settings(scene), -1);
+    TimeStepper stepper(system, scene, -1);
     StepMemory memory;
     const StepRecord record = stepper.step(state, memory);
     REQUIRE(record.contacts > 0.0);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "experiments/step/time_step.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
 
@@ -25,12 +26,7 @@ Outcome run(const char* scene_name, std::vector<std::string> overrides,
   const Scene scene = read_scene(find_scene(scene_name), overrides);
   Outcome outcome;
   outcome.system = make_system(scene, outcome.state);
-  int driven = -1;
-  for (size_t b = 0; b < outcome.system.bodies.size(); ++b)
-    if (outcome.system.bodies[b].is_wall() &&
-        outcome.system.bodies[b].wall.motion == WallMotion::driven)
-      driven = static_cast<int>(b);
-  TimeStepper stepper(outcome.system, step_settings(scene), driven);
+  TimeStepper stepper(outcome.system, scene, outcome.system.first_driven_wall());
   StepMemory memory;
   while (outcome.state.step < scene.step_count()) {
     const StepRecord record = stepper.step(outcome.state, memory);
@@ -39,11 +35,7 @@ Outcome run(const char* scene_name, std::vector<std::string> overrides,
   return outcome;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
+std::string number(double value) { return printed("%.17g", value); }
 
 std::string gravity_towards(double x, double y, double z) {
   return "gravity.direction=[" + number(x) + ", " + number(y) + ", " + number(z) + "]";

@@ -104,7 +104,7 @@ TEST_CASE("the overlap correction lifts a sunken cube without giving it velocity
     scene.correction.enabled = on;
     MotionState state;
     const MechanicalSystem system = make_system(scene, state);
-    TimeStepper stepper(system, step_settings(scene), -1);
+    TimeStepper stepper(system, scene, -1);
     StepMemory memory;
     double speed = 0.0, lifted = 0.0;
     for (int k = 0; k < 100; ++k) {
@@ -128,7 +128,7 @@ TEST_CASE("the overlap correction does not move a driven wall") {
   scene.bodies.push_back(cube("body", 0.1, 2.0, Vec3(0, 0, 0.05 - 1e-4)));
   MotionState state;
   const MechanicalSystem system = make_system(scene, state);
-  TimeStepper stepper(system, step_settings(scene), 1);
+  TimeStepper stepper(system, scene, 1);
   StepMemory memory;
   for (int k = 0; k < 100; ++k) stepper.step(state, memory);
   CHECK(outward_displacement(system, state, 1) == 0.0);

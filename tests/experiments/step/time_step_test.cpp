@@ -50,7 +50,7 @@ TEST_CASE("free fall is exact at every step") {
   scene.bodies[0].spin = Vec3(1, 2, 3);
   MotionState state;
   const MechanicalSystem system = make_system(scene, state);
-  TimeStepper stepper(system, step_settings(scene), -1);
+  TimeStepper stepper(system, scene, -1);
   StepMemory memory;
   for (int k = 1; k <= 1000; ++k) {
     const StepRecord record = stepper.step(state, memory);
@@ -72,7 +72,7 @@ TEST_CASE(
   scene.solver.max_iterations = 5000;
   MotionState state;
   const MechanicalSystem system = make_system(scene, state);
-  TimeStepper stepper(system, step_settings(scene), -1);
+  TimeStepper stepper(system, scene, -1);
   StepMemory memory;
   double dissipated = 0.0, gravity = 0.0, residual = 0.0, penetration = 0.0;
   for (int k = 0; k < 300; ++k) {
@@ -103,7 +103,7 @@ TEST_CASE("LMGC90's rule stops the sweeps of a step at multiples of its looks") 
   scene.solver.change_every = 10;
   MotionState state;
   const MechanicalSystem system = make_system(scene, state);
-  TimeStepper stepper(system, step_settings(scene), -1);
+  TimeStepper stepper(system, scene, -1);
   StepMemory memory;
   for (int k = 0; k < 20; ++k) {
     const StepRecord record = stepper.step(state, memory);

@@ -9,32 +9,43 @@
 
 namespace ballast {
 
+constexpr double sample_step = 2e-4;  // [s]
+
+/// `step % 4` contacts, all numbers of which say the step and the contact.
+inline StepMemory sample_memory(long step) {
+  StepMemory memory;
+  for (int c = 0; c < step % 4; ++c) {
+    const double x = static_cast<double>(step) + 0.1 * c;
+    memory.contacts.push_back({c, c + 1, 7, Vec3(0, 0, 1), Vec3(x, -x, 2 * x), -1e-6 * x});
+    memory.impulses.push_back(Vec3(0.0, 0.5, x) * sample_step);
+  }
+  return memory;
+}
+
 /// Steps first .. last, a frame at every fifth (and at 0), as a run does.
 inline void record(Recorder& recorder, const MechanicalSystem& system, long first, long last) {
-  if (first == 1) recorder.add_poses(sample_state(system, 0));
-  for (long step = first; step <= last; ++step) {
-    recorder.add_step(sample_row(step));
-    if (step % 5 == 0) recorder.add_poses(sample_state(system, step));
+  for (long step = first == 1 ? 0 : first; step <= last; ++step) {
+    if (step > 0) recorder.add_step(sample_row(step));
+    if (step % 5 != 0) continue;
+    const MotionState state = sample_state(system, step);
+    recorder.add_poses(state);
+    recorder.add_forces(state, sample_memory(step), sample_step);
   }
 }
 
-/// A folder with the record of the sample system's first steps, still open.
+/// A folder with the record of the sample system's first steps, still open, all of it on disk.
 struct OpenRecord {
-  explicit OpenRecord(long steps) { record(recorder, system, 1, steps); }
+  explicit OpenRecord(long steps, bool with_forces = false)
+      : recorder(folder.path(), system, 0, with_forces) {
+    record(recorder, system, 1, steps);
+    recorder.flush();
+  }
   const std::filesystem::path& path() const { return folder.path(); }
 
   const TemporaryFolder folder;
   const MechanicalSystem system = sample_system();
-  Recorder recorder{folder.path(), system, 0};
+  Recorder recorder;
 };
-
-/// The logs of a run of the sample system that died after its checkpoint at step `last`.
-inline void leave_logs(const std::filesystem::path& folder, const MechanicalSystem& system,
-                       long last) {
-  Recorder recorder(folder, system, 0);
-  record(recorder, system, 1, last);
-  recorder.flush();
-}
 
 inline void check_record(const std::filesystem::path& folder, const MechanicalSystem& system,
                          long steps) {
@@ -43,21 +54,8 @@ inline void check_record(const std::filesystem::path& folder, const MechanicalSy
   for (long k = 0; k < steps; ++k) CHECK(same_bits(rows[k], sample_row(k + 1)));
   const auto frames = read_poses(folder);
   REQUIRE(frames.size() == static_cast<size_t>(steps / 5 + 1));
-  for (size_t k = 0; k < frames.size(); ++k) {
-    const MotionState state = sample_state(system, 5 * static_cast<long>(k));
-    CHECK(frames[k].step == state.step);
-    CHECK(same_bits(frames[k].time, state.time));
-    CHECK(same_bits(frames[k].pose, state.pose));
-    CHECK(same_bits(frames[k].velocity, state.velocity));
-    CHECK(same_bits(frames[k].spin, state.spin));
-  }
-}
-
-inline std::filesystem::path steps_log(const std::filesystem::path& folder) {
-  return folder / "log" / "steps.bin";
-}
-inline std::filesystem::path poses_log(const std::filesystem::path& folder) {
-  return folder / "log" / "poses.bin";
+  for (size_t k = 0; k < frames.size(); ++k)
+    CHECK(same_bits(frames[k], sample_state(system, 5 * static_cast<long>(k))));
 }
 
 /// Runs `action` in a child that then dies without cleaning up, as by kill -9: what it had buffered
