@@ -58,7 +58,9 @@ inline double swept_square(const FrictionProblem& problem, const Impulses& chang
     PrincipalContact local;
     TangentTurn turn;
     make_principal(blocks[c], 0.0, local, turn);
-    Eigen::Vector3d d = rows_of_contact(problem, change, c);
+    const int rows = problem.contact_rows(c);
+    Eigen::Vector3d d = Eigen::Vector3d::Zero();
+    d.head(rows) = change.segment(problem.row_begin[c], rows);
     turn.to_principal(d[1], d[2]);
     d[0] += local.c1 * d[1] + local.c2 * d[2];
     sum += in_groups ? d[0] * d[0] / local.inverse_normal + local.s1 * d.tail<2>().squaredNorm()
