@@ -1,7 +1,7 @@
 // Problems, their solution and their judge for Python, and what runs and foreign programs leave in
 // files; what users see is ballast/__init__.py.
 
-#include "experiments/external/external_files.hpp"
+#include "experiments/external/external_program.hpp"
 #include "experiments/step/step_record.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/files/captured_problem.hpp"
@@ -221,7 +221,7 @@ void answer(const ExternalRequest& request, const std::filesystem::path& file, i
             const std::optional<Doubles>& r, int iterations, double residual, double seconds,
             const Doubles& history) {
   ExternalAnswer answer;
-  answer.set_status(status);
+  answer.status = status;
   if (r) answer.impulses = impulses_of(request.problem, *r);
   answer.iterations = iterations;
   answer.own_residual = residual;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/live_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "platform/text.hpp"
@@ -45,6 +44,19 @@ const RowMeasure row_measures[] = {
      }},
 };
 
+/// Adds to a panel a line through `points` (x, y) in the style of `curve`, and a mark on each.
+void add_marked_line(const std::vector<std::pair<double, double>>& points, Curve curve,
+                     Panel& panel) {
+  for (const auto& [x, y] : points) {
+    curve.x.push_back(x);
+    curve.y.push_back(y);
+  }
+  panel.curves.push_back(curve);
+  curve.title.clear();
+  curve.mark = Mark::points;
+  panel.curves.push_back(std::move(curve));
+}
+
 /// One solver from one start to one tolerance, on all problems.
 struct SolveGroup {
   std::string solver;
@@ -83,24 +95,9 @@ std::vector<SolveGroup> solve_groups(std::span<const CompareRow> rows) {
 
 }  // namespace
 
-LiveComparison measure_accuracy(const LiveOptions& live, const std::vector<int>& iterations,
+LiveComparison measure_accuracy(const LiveOptions& live,
                                 const std::function<bool(const Trajectory&)>& said) {
-  LiveComparison all;
-  bool goes_on = true;
-  const auto run = [&](const LiveOptions& options) {
-    if (!goes_on) return;
-    std::vector<Trajectory> before = std::move(all.trajectories);
-    all = run_live(options, [&](const Trajectory& t) { return goes_on = said(t); });
-    all.trajectories.insert(all.trajectories.begin(), std::make_move_iterator(before.begin()),
-                            std::make_move_iterator(before.end()));
-  };
-  if (!live.tolerances.empty()) run(live);
-  for (const int count : iterations) {
-    LiveOptions options = live;
-    options.max_iterations = count;
-    options.tolerances = {1e-12};  // never reached: every step gets all of them
-    run(options);
-  }
+  LiveComparison all = run_live(live, said);
   all.reference = -1;
   double least = HUGE_VAL;
   for (size_t k = 0; k < all.trajectories.size(); ++k) {

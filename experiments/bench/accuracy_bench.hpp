@@ -11,10 +11,8 @@
 
 namespace ballast {
 
-/// The closed loop under every tolerance of `live`, with as many iterations as that takes, then
-/// with each of `iterations` in every step. The reference is the complete trajectory of the least
-/// mean error. `said` hears of each trajectory; returning false stops. Throws what run_live throws.
-LiveComparison measure_accuracy(const LiveOptions& live, const std::vector<int>& iterations,
+/// run_live, but the reference is the complete trajectory of the least mean error.
+LiveComparison measure_accuracy(const LiveOptions& live,
                                 const std::function<bool(const Trajectory&)>& said);
 
 /// Of complete trajectories, a group to each: its cost, and all that live.csv holds.

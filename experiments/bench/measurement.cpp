@@ -26,15 +26,14 @@ std::string in_digits(double value) { return printed("%.4g", value); }
 Measurement measurement_of(const std::string& group, const std::string& name,
                            const std::string& unit, std::vector<double> values) {
   if (values.empty()) throw std::invalid_argument("no value of " + group + "/" + name);
-  std::sort(values.begin(), values.end());
   const double count = static_cast<double>(values.size());
   return {group,
           name,
           unit,
-          quantile_of_sorted(values, 0.5),
+          quantile(values, 0.5),
           std::accumulate(values.begin(), values.end(), 0.0) / count,
-          quantile_of_sorted(values, 0.25),
-          quantile_of_sorted(values, 0.75),
+          quantile(values, 0.25),
+          quantile(values, 0.75),
           static_cast<long>(values.size())};
 }
 

@@ -2,18 +2,100 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
 
-#include "experiments/compare/compare_figures.hpp"
+#include <sys/resource.h>
+
+#include "experiments/compare/live_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/wall_cycles.hpp"
 #include "experiments/step/step_record.hpp"
 #include "experiments/step/time_step.hpp"
+#include "platform/program.hpp"
 #include "platform/clock.hpp"
+#include "platform/error.hpp"
+#include "platform/interrupt.hpp"
+#include "platform/pack.hpp"
+#include "platform/worker_team.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "problems/scene/scene_file.hpp"
+#include "solvers/gauss_seidel/any_sweep.hpp"
+#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {
+
+/// A step of the driven box, with the problem that it solved.
+struct StepWork {
+  const double h;
+  BenchStart start;
+  TimeStepper stepper;
+  ProblemAssembler assembler;
+  ContactJudge judge;
+  Eigen::VectorXd v_free;
+  FrictionProblem problem;
+  Impulses warm;
+
+  StepWork(const DepositedBox& box, int steps)
+      : h(box.scene.step),
+        start(driven_start(box)),
+        stepper(start.system, box.scene, start.system.first_driven_wall()),
+        assembler(start.system) {
+    for (int k = 0; k < steps; ++k) stepper.step(start.state, start.memory);
+    stepper.warm_start(warm);
+    assembler.pack(start.state, v_free);
+    assemble();
+  }
+  void assemble() {
+    const double end = start.state.time + h;
+    assembler.assemble({start.state, stepper.contacts(), v_free, h, end}, problem);
+  }
+};
+
+struct DetectionWork {
+  ContactDetector detector;
+  std::vector<Pose> poses;
+  std::vector<double> reach;
+  std::vector<ContactPoint> contacts;
+
+  DetectionWork(const BenchStart& start, DetectionSettings settings, bool use_cache)
+      : detector(contact_shapes(start.system), (settings.use_cache = use_cache, settings)),
+        poses(start.state.pose),
+        reach(poses.size(), 0.0) {}
+  void all() { detector.detect(poses, reach, contacts); }
+};
+
+struct SweepWork {
+  const FrictionProblem problem;
+  AnySweep sweep;
+
+  SweepWork(const StepWork& step, bool in_single) : problem(step.stepper.problem()) {
+    sweep.prepare(problem);
+    sweep->allow_single(in_single);
+    sweep->load(problem, step.warm);
+    sweep->start_search();
+  }
+};
+
+/// CPU ns per item of each repetition. The first call is not timed: it makes what others find.
+std::vector<double> samples_of(const Kernel& kernel, const KernelBenchOptions& options) {
+  kernel.call();
+  std::vector<double> samples;
+  for (long calls = 1; samples.size() < static_cast<size_t>(options.repeats);) {
+    const double begin = processor_seconds();
+    for (long k = 0; k < calls; ++k) kernel.call();
+    const double seconds = processor_seconds() - begin;
+    if (seconds < options.min_time)
+      calls *= 2;
+    else
+      samples.push_back(1e9 * seconds / (static_cast<double>(calls) * kernel.items));
+  }
+  return samples;
+}
 
 struct StepQuantity {
   std::string name;
@@ -62,7 +144,163 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
   }
 }
 
+double peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Wall clock of a sweep [s].
+double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int sweeps,
+                     int threads) {
+  WorkerTeam team;
+  team.resize(threads);
+  AnySweep sweep;
+  sweep.use_team(&team);
+  sweep.prepare(problem);
+  sweep->load(problem, start);
+  std::vector<double> seconds;
+  for (int k = 0; k < sweeps; ++k) {
+    const Stopwatch watch;
+    sweep->sweep();
+    seconds.push_back(watch.seconds());
+  }
+  return quantile(seconds, 0.5);
+}
+
+/// What the child does: steps, then the last step's problem once more, a sweep alone and each
+/// solver to the tolerance.
+void measure_packing(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
+  const auto add = [&](const std::string& name, const char* unit, std::vector<double> values) {
+    const std::string grains = std::to_string(static_cast<long>(point.grains)) + " grains";
+    point.measured.push_back(measurement_of(thread_words(point.threads) + ", " + grains, name, unit,
+                                            {quantile(values, 0.5)}));
+  };
+  const double before = peak_bytes(), ns = 1e9 / point.grains;
+  BenchStart start = tiled_start(box, point.nx, point.ny);
+  Scene scene = box.scene;
+  scene.solver.threads = point.threads;
+  std::vector<StepRecord> steps;
+  TimeStepper stepper(start.system, scene, -1);
+  // Steps with k < 0 warm up: the seams between the copies settle, caches fill.
+  for (int k = -options.warm_up; k < options.steps; ++k) {
+    const StepRecord step = stepper.step(start.state, start.memory);
+    if (k >= 0) steps.push_back(step);
+  }
+  std::vector<double> whole;
+  for (const StepRecord& step : steps) whole.push_back(ns * step_seconds(step));
+  const double contacts = steps.back().contacts;
+  add("contacts", "contacts", {contacts});
+  add("detect", "ns/grain", record_column(steps, &StepRecord::seconds_detect, ns));
+  add("assemble", "ns/grain", record_column(steps, &StepRecord::seconds_assemble, ns));
+  add("solve", "ns/grain", record_column(steps, &StepRecord::seconds_solve, ns));
+  add("step", "ns/grain", whole);
+  add("memory", "B/grain", {(peak_bytes() - before) / point.grains});
+  Impulses warm;
+  stepper.warm_start(warm);
+  const double sweep = sweep_seconds(stepper.problem(), warm, options.sweeps, point.threads);
+  add("sweep", "ns/grain", {ns * sweep});
+  add("sweep per contact", "ns/contact", {1e9 * sweep / std::max(1.0, contacts)});
+  const Budget budget{.tolerance = options.tolerance * velocity_scale(scene),
+                      .max_iterations = options.max_iterations};
+  WorkerTeam team;
+  team.resize(point.threads);
+  for (const std::string& name : options.solvers) {
+    const std::unique_ptr<Solver> solver = make_solver(name);
+    solver->use_team(&team);
+    const SolverRun run = SolverRunner().run(*solver, stepper.problem(), warm, budget);
+    if (run.is_solved())
+      add("iterations needed, " + name, "iterations", {1.0 * run.solved.iterations});
+    add((run.is_solved() ? "time to the tolerance, " : "time, tolerance not reached, ") + name,
+        "ms", {1e3 * (run.prepare_seconds + run.solve_seconds)});
+  }
+}
+
+/// What the child measured, on its way to the parent.
+template <class Carrier, class List>
+void carry(Carrier& carrier, List& measured) {
+  carrier.list(measured, [&](auto& m) {
+    for (auto* text : {&m.group, &m.name, &m.unit}) carrier.text(*text);
+    carrier.numbers(m.median, m.mean, m.low, m.high, m.samples);
+  });
+}
+
+/// Measures the packing that `point` names in a child, and fills in what it measured.
+void measure_in_child(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
+  // The peak of memory is a process' own: a child for each packing keeps them apart.
+  const ChildResult child = run_in_child(options.max_seconds, [&] {
+    measure_packing(box, options, point);
+    Packer packer;
+    carry(packer, point.measured);
+    return packer.bytes();
+  });
+  if (child.end != ChildEnd::complete)
+    throw Error("bench scaling: " + std::to_string(static_cast<long>(point.grains)) +
+                " grains: the child " +
+                (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
+  Unpacker unpacker(child.answer, "bench scaling: a child's answer");
+  carry(unpacker, point.measured);
+  unpacker.finish();
+}
+
+/// Contacts and impulses in the order of their keys.
+void sort_memory(StepMemory& memory) {
+  std::vector<size_t> order(memory.contacts.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  const auto key = [&](size_t k) {
+    const ContactPoint& c = memory.contacts[k];
+    return std::tuple(c.body_a, c.body_b, c.feature);
+  };
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
+  StepMemory sorted;
+  for (const size_t k : order) {
+    sorted.contacts.push_back(memory.contacts[k]);
+    sorted.impulses.push_back(memory.impulses[k]);
+  }
+  memory = std::move(sorted);
+}
+
 }  // namespace
+
+std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
+  const auto step = std::make_shared<StepWork>(box, steps);
+  std::vector<Kernel> kernels;
+  for (const bool use_cache : {false, true}) {
+    const auto work =
+        std::make_shared<DetectionWork>(step->start, box.scene.detection, use_cache);
+    work->all();
+    const double pairs = static_cast<double>(work->detector.counters().candidate_pairs);
+    kernels.push_back({"detection", use_cache ? "axes kept" : "from scratch", "ns/pair",
+                       std::max(1.0, pairs), [work] { work->all(); }});
+  }
+  const double contacts = std::max(1, step->problem.contact_count());
+  const auto add = [&](const char* group, const std::string& name, std::function<void()> call) {
+    kernels.push_back({group, name, "ns/contact", contacts, std::move(call)});
+  };
+  add("problem", "assembly", [step] { step->assemble(); });
+  add("problem", "judge", [step] { step->judge.judge(step->problem, step->stepper.impulses()); });
+  for (const bool in_single : {false, true}) {
+    const auto work = std::make_shared<SweepWork>(*step, in_single);
+    const std::string how = in_single ? " in float lanes" : "";
+    add("sweep", "sweep" + how, [work] { work->sweep->sweep(); });
+    // What an iteration of nncg does between two looks at the error.
+    add("sweep", "sweep along a search" + how, [work] { work->sweep->sweep_along({0.1, 1.0}); });
+    add("sweep", "error" + how, [work] { work->sweep->error(); });
+  }
+  return kernels;
+}
+
+std::vector<Measurement> run_kernels(const std::vector<Kernel>& kernels,
+                                     const KernelBenchOptions& options) {
+  std::vector<Measurement> measurements;
+  for (const Kernel& kernel : kernels)
+    if ((kernel.group + "/" + kernel.name).find(options.filter) != std::string::npos)
+      measurements.push_back(
+          measurement_of(kernel.group, kernel.name, kernel.unit, samples_of(kernel, options)));
+  if (measurements.empty())
+    throw std::invalid_argument("no kernel is called like '" + options.filter + "'");
+  return measurements;
+}
 
 std::vector<BenchStep> measure_steps(const Scene& scene, BenchStart start, long steps,
                                      int threads) {
@@ -122,6 +360,128 @@ Figure step_figure(const std::vector<BenchStep>& steps, int windows) {
           .title = "Where the time of a step goes",
           .height = 620,
           .panels = {phases, wall}};
+}
+
+double ScalingPoint::value(const std::string& name) const {
+  const auto found = std::ranges::find(measured, name, &Measurement::name);
+  return found == measured.end() ? not_known : found->median;
+}
+
+std::pair<int, int> tiles_for(long grains, int block) {
+  // As nearly square as whole numbers allow.
+  const double tiles = std::max(1.0, static_cast<double>(grains) / block);
+  const int nx = std::max(1, static_cast<int>(std::lround(std::sqrt(tiles))));
+  return {nx, std::max(1, static_cast<int>(std::lround(tiles / nx)))};
+}
+
+std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
+                                          const std::function<void(const ScalingPoint&)>& said) {
+  std::vector<ScalingPoint> points;
+  const int block = static_cast<int>(box.rain.grains.size());
+  for (const int grains : options.grains)
+    for (const int threads : options.threads) {
+      ScalingPoint point;
+      point.threads = threads;
+      std::tie(point.nx, point.ny) = tiles_for(grains, block);
+      point.grains = static_cast<double>(point.nx) * point.ny * block;
+      measure_in_child(box, options, point);
+      points.push_back(std::move(point));
+      said(points.back());
+    }
+  return points;
+}
+
+Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPoint>& points) {
+  Panel cost{.x_label = "grains", .y_label = "ns per grain", .log_x = true, .log_y = true},
+      iterations{.x_label = "grains", .y_label = "iterations needed", .log_x = true, .y_min = 0.0};
+  const auto add = [&](const std::string& name, int threads, const std::string& title,
+                       Panel& panel) {
+    Curve curve = backend_curve(panel.curves.size(), title);
+    curve.dashed = threads != 1;
+    for (const ScalingPoint& p : points)
+      if (const double value = p.value(name); p.threads == threads && std::isfinite(value)) {
+        curve.x.push_back(p.grains);
+        curve.y.push_back(value);
+      }
+    panel.curves.push_back(std::move(curve));
+  };
+  for (const int threads : options.threads)
+    for (const char* name : {"detect", "assemble", "sweep"})
+      add(name, threads, std::string(name) + ", " + thread_words(threads), cost);
+  for (const std::string& solver : options.solvers)
+    add("iterations needed, " + solver, options.threads.front(), solver, iterations);
+  return {.name = "scaling",
+          .title = "Cost per grain over grains",
+          .height = 620,
+          .panels = {cost, iterations}};
+}
+
+DepositedBox deposited_box(const std::string& name, const std::vector<std::string>& overrides,
+                           const std::filesystem::path& cache) {
+  DepositedBox box;
+  box.scene = read_scene(find_scene(name), overrides);
+  if (!box.scene.grains) throw Error(name + ": has no grains: a bench needs a deposited packing");
+  box.rain = make_rain(box.scene);
+  const InterruptGuard guard;
+  double deposit_seconds = 0.0;
+  const PackingOrder order{cache, [] { return !InterruptGuard::requested(); }};
+  if (!take_packing(box.scene, box.rain, order, box.packing, deposit_seconds))
+    throw Error("interrupted; the same command goes on depositing");
+  return box;
+}
+
+BenchStart driven_start(const DepositedBox& box) {
+  BenchStart start;
+  start.system = drive_system(box.scene, box.rain, box.packing, start.state);
+  start.memory = box.packing.memory;
+  return start;
+}
+
+BenchStart tiled_start(const DepositedBox& box, int nx, int ny) {
+  Scene scene = box.scene;
+  scene.box.length *= nx;
+  scene.box.width *= ny;
+  const size_t grains = box.rain.grains.size();
+  // Where a body of one copy is found among the tiles; -1: a wall between two copies.
+  //
+  //     | 2 | 3 |   2 x 2 copies, each with its grains numbered in one piece. The walls between
+  //     | 0 | 1 |   copies fall away; the outer ones become those of one large box.
+  const auto body_of_tile = [&, count = static_cast<int>(grains)](int body, int ix, int iy) {
+    if (body < count) return (iy * nx + ix) * count + body;
+    const int wall = body - count;
+    const bool between = (wall == wall_x_min && ix > 0) || (wall == wall_x_max && ix < nx - 1) ||
+                         (wall == wall_y_min && iy > 0) || (wall == wall_y_max && iy < ny - 1);
+    return between ? -1 : nx * ny * count + wall;
+  };
+  const auto shift = [&](size_t ix, size_t iy) {
+    return Vec3(ix * box.scene.box.length, iy * box.scene.box.width, 0.0);
+  };
+  Rain rain;
+  BenchStart start;
+  for (int iy = 0; iy < ny; ++iy)
+    for (int ix = 0; ix < nx; ++ix) {
+      rain.grains.insert(rain.grains.end(), box.rain.grains.begin(), box.rain.grains.end());
+      for (size_t c = 0; c < box.packing.memory.contacts.size(); ++c) {
+        ContactPoint contact = box.packing.memory.contacts[c];
+        contact.body_a = body_of_tile(contact.body_a, ix, iy);
+        contact.body_b = body_of_tile(contact.body_b, ix, iy);
+        if (contact.body_a < 0 || contact.body_b < 0) continue;
+        contact.position += shift(ix, iy);
+        start.memory.contacts.push_back(contact);
+        start.memory.impulses.push_back(box.packing.memory.impulses[c]);
+      }
+    }
+  sort_memory(start.memory);
+  start.system = box_system(scene, rain, BoxStage::settle, box.packing.deposit.lid, &start.state);
+  // the grains of each copy are where they rest in the packing, not where they begin to rain
+  for (size_t b = 0; b < rain.grains.size(); ++b) {
+    const size_t tile = b / grains, grain = b % grains;
+    start.state.pose[b] = box.packing.state.pose[grain];
+    start.state.pose[b].position += shift(tile % nx, tile / nx);
+    start.state.velocity[b] = box.packing.state.velocity[grain];
+    start.state.spin[b] = box.packing.state.spin[grain];
+  }
+  return start;
 }
 
 }  // namespace ballast

@@ -1,12 +1,70 @@
 #pragma once
-// `ballast bench step`: whole steps of the driven box by phase of the step, with counters.
+// What a step costs. `ballast bench step`: whole steps of the driven box by phase of the step, with
+// counters. `ballast bench kernels`: the inner loops of a step on their own. `ballast bench
+// scaling`: the cost per grain of packings of the same kind and growing size.
 
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "experiments/bench/bench_packing.hpp"
 #include "experiments/bench/measurement.hpp"
+#include "experiments/box/packing.hpp"
 
 namespace ballast {
+
+// Packings for `ballast bench`: the vibrated box as deposited, and large ones of the same kind made
+// of it.
+
+/// A scene with `grains`, and its deposited packing.
+struct DepositedBox {
+  Scene scene;
+  Rain rain;
+  Packing packing;
+};
+
+/// From `cache`, or deposited now and kept there (resumable). Throws Error: a scene without grains,
+/// interrupted; SceneFileError.
+DepositedBox deposited_box(const std::string& scene, const std::vector<std::string>& overrides,
+                           const std::filesystem::path& cache);
+
+/// A system with its state and warm start.
+struct BenchStart {
+  MechanicalSystem system;
+  MotionState state;
+  StepMemory memory;
+};
+
+/// The driven box at its first step.
+BenchStart driven_start(const DepositedBox& box);
+
+/// nx by ny copies of the packing side by side, without the walls between them, in one large box
+/// whose walls stand still (the settling stage: with the raised lid). Blocks do not overlap,
+/// because each lay between its walls; where those stood a seam of a grain's width is looser than
+/// the rest. Copies share the shapes of the first.
+BenchStart tiled_start(const DepositedBox& box, int nx, int ny);
+
+/// One kernel: `call` is timed, and does `items` items.
+struct Kernel {
+  std::string group, name, unit;  ///< unit: "ns/contact"
+  double items = 1.0;
+  std::function<void()> call;
+};
+
+/// Detection, assembly, judge and sweep at the last of `steps` steps of the driven box. What they
+/// work on lives in the closures.
+std::vector<Kernel> step_kernels(const DepositedBox& box, int steps);
+
+struct KernelBenchOptions {
+  std::string filter;     ///< a part of group/name; empty: all
+  double min_time = 0.1;  ///< CPU seconds of one repetition
+  int repeats = 5;
+};
+
+/// CPU time per item in ns. Throws std::invalid_argument when the filter fits no kernel.
+std::vector<Measurement> run_kernels(const std::vector<Kernel>& kernels,
+                                     const KernelBenchOptions& options);
 
 /// One measured step. The record holds the wall clock by phase.
 struct BenchStep {
@@ -27,5 +85,39 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
 
 /// Time of a step by phase over simulated time, in `windows` medians; the wall's velocity below.
 Figure step_figure(const std::vector<BenchStep>& steps, int windows);
+
+struct ScalingOptions {
+  std::vector<int> grains;  ///< wanted; what comes is the block's grains times a number of tiles
+  std::vector<int> threads{1};
+  int warm_up = 5, steps = 10;  ///< of each packing
+  int sweeps = 10;              ///< timed on the last step's problem
+  double tolerance = 1e-2;      ///< [g h] for the iterations needed
+  int max_iterations = 300;
+  std::vector<std::string> solvers{"pgs", "nncg"};
+  double max_seconds = 3600.0;  ///< wall clock of one packing
+};
+
+/// What was measured on one packing with one number of threads: by phase ns per grain and step,
+/// medians of wall clock; a sweep; memory beyond what the process had before; per solver what the
+/// tolerance took. Group "<threads> threads, <grains> grains".
+struct ScalingPoint {
+  int threads = 1, nx = 1, ny = 1;
+  double grains = 0.0;
+  std::vector<Measurement> measured;
+
+  /// NaN: not measured, or not reached.
+  double value(const std::string& name) const;
+};
+
+/// Tiles nx * ny near grains / block, as square as can be.
+std::pair<int, int> tiles_for(long grains, int block);
+
+/// Each packing in a child process, so that its memory is its own. `said` hears of each. Throws
+/// Error where a child fails: out of memory, out of time.
+std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
+                                          const std::function<void(const ScalingPoint&)>& said);
+
+/// ns per grain of detection, assembly and a sweep, and the iterations needed, over grains.
+Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPoint>& points);
 
 }  // namespace ballast

@@ -4,11 +4,9 @@
 #include <memory>
 
 #include "experiments/bench/accuracy_bench.hpp"
-#include "experiments/bench/kernels.hpp"
-#include "experiments/bench/scaling_bench.hpp"
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/commands/command.hpp"
-#include "experiments/compare/compare_options.hpp"
+#include "experiments/compare/comparison.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
@@ -25,7 +23,7 @@ struct BenchRequest {
   bool plot = true;
   KernelBenchOptions kernels;
   int steps = 1000;
-  std::vector<int> threads{1}, iterations{20, 50, 100, 200};
+  std::vector<int> threads{1};
   ScalingOptions scaling;
   CompareOptions captured;
 
@@ -97,11 +95,10 @@ ExitCode bench_scaling(const BenchRequest& request) {
 ExitCode bench_accuracy(const BenchRequest& request) {
   LiveOptions live = request.live;
   live.folder = request.output / "live";
-  const LiveComparison comparison =
-      measure_accuracy(live, request.iterations, [](const Trajectory& t) {
-        std::cout << t.label() << ": " << t.steps.size() << " steps, " << t.ended << std::endl;
-        return !InterruptGuard::requested();
-      });
+  const LiveComparison comparison = measure_accuracy(live, [](const Trajectory& t) {
+    std::cout << t.label() << ": " << t.steps.size() << " steps, " << t.ended << std::endl;
+    return !InterruptGuard::requested();
+  });
   const Figure figure = accuracy_figure(comparison);
   return finish(request, "accuracy", accuracy_measurements(comparison), &figure);
 }
@@ -184,14 +181,15 @@ Command accuracy_command() {
   const auto request = std::make_shared<BenchRequest>();
   LiveOptions& live = request->live;
   live.duration = 0.01;
+  live.iterations = {20, 50, 100, 200};
   return measuring("accuracy", "What a simulated second costs at which error", request,
                    bench_accuracy,
                    {{"--solvers", into(live.solvers, parse_solvers, "nesterov_pgs,nncg,pgs,apgd"),
                      "Separated by commas"},
                     {"--tolerances", into(live.tolerances, tolerances_or_none, "1e-2,1e-3"),
                      "Solved to these [g h]; none: not"},
-                    {"--iterations", &request->iterations,
-                     "And with so many iterations in every step", between(1, most_count)},
+                    {"--iterations", &live.iterations, "And with so many iterations in every step",
+                     between(1, most_count)},
                     {"--threads", &live.threads, "Of the step and its solver", between(1, 256)},
                     {"--from", &live.start, "Simulated time where all begin [s]", at_least(0)},
                     {"--duration", &live.duration, "Simulated from there [s]", above(0)}});

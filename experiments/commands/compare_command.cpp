@@ -10,9 +10,8 @@
 
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/collection.hpp"
-#include "experiments/compare/compare_diff.hpp"
-#include "experiments/compare/compare_options.hpp"
 #include "experiments/compare/compare_page.hpp"
+#include "experiments/compare/comparison.hpp"
 #include "experiments/compare/live_page.hpp"
 #include "experiments/compare/stored_comparison.hpp"
 #include "experiments/run/run_folder.hpp"
@@ -66,9 +65,9 @@ void print_change(const ChangedSolve& solve, int width) {
   const bool has_both = solve.before > 0.0 && solve.after > 0.0;
   const std::string ratio = has_both ? printed("%.2f", solve.after / solve.before) : "-";
   std::cout << printed("%-*s %-14s %-8g%-6s%12.4g%12.4g%8s%8.2f  %s\n", width,
-                       solve.case_name.c_str(), solve.solver.c_str(), solve.tolerance,
-                       name_of(solve.start), solve.before, solve.after, ratio.c_str(), solve.spread,
-                       name_of(solve.change));
+                       solve.row->case_name.c_str(), solve.row->solver.c_str(),
+                       solve.row->tolerance, name_of(solve.row->start), solve.before, solve.after,
+                       ratio.c_str(), solve.spread, name_of(solve.change));
 }
 
 ExitCode diff(const DiffOptions& options) {
@@ -84,7 +83,7 @@ ExitCode diff(const DiffOptions& options) {
   std::map<Change, int> counts;
   int width = 34;
   for (const ChangedSolve& solve : changes)
-    width = std::max(width, static_cast<int>(solve.case_name.size()));
+    width = std::max(width, static_cast<int>(solve.row->case_name.size()));
   std::cout << printed("%-*s %-14s %-8s%-6s%12s%12s%8s%8s  %s\n", width, "case", "solver", "tol",
                        "start", "before_s", "after_s", "ratio", "spread", "change");
   for (const ChangedSolve& solve : changes) {

@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/command.hpp"
-#include "experiments/compare/compare_options.hpp"
-#include "experiments/external/external_files.hpp"
+#include "experiments/compare/comparison.hpp"
+#include "experiments/external/external_program.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
@@ -269,7 +269,7 @@ ExternalAnswer answer_to(const ExternalRequest& request, const MakeSolver& make)
   const auto solver = make();
   try {
     SolverRun run = SolverRunner().run(*solver, request.problem, request.start, budget);
-    answer.reason = run.solved.reason;
+    answer.status = static_cast<int>(run.solved.reason);
     answer.impulses = std::move(run.solved.impulses);
     answer.iterations = run.solved.iterations;
     answer.own_residual = run.solved.own_residual;
@@ -277,7 +277,7 @@ ExternalAnswer answer_to(const ExternalRequest& request, const MakeSolver& make)
     answer.history = std::move(run.solved.history);
   } catch (const UnsupportedProblem& error) {
     std::cerr << error.what() << '\n';
-    answer.verdict = Verdict::unsupported;
+    answer.status = ExternalAnswer::unsupported;
   }
   return answer;
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -17,6 +18,8 @@
 #include "platform/text.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
+#include "problems/algebra/known_solutions.hpp"
+#include "problems/algebra/made_problems.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"
 
@@ -80,10 +83,7 @@ double mass_ratio(const FrictionProblem& problem, const std::set<int>& touched) 
 
 LoadedCase load_captured(const fs::path& file) {
   const auto captured = std::make_shared<CapturedProblem>(read_captured(file));
-  LoadedCase loaded;
-  loaded.problem = captured->problem;
-  loaded.warm_start = captured->start;
-  loaded.facts = case_facts(loaded.problem, loaded.warm_start, captured->velocity_scale());
+  LoadedCase loaded = load_case(captured->problem, captured->velocity_scale(), captured->start);
   loaded.describe_contact = [captured](int c) {
     if (c < 0) return std::string();
     const size_t k = static_cast<size_t>(c);
@@ -100,38 +100,26 @@ std::string run_of_captured(const fs::path& file) {
   return folder.filename().string();
 }
 
-CompareCase stored_case(const fs::path& file) {
-  return {file.filename().string(), family_of_file(file.filename().string()), [file] {
-            if (!is_there(file)) throw Error(file.string() + ": no such file");
-            return load_case(read_problem(file));
-          }};
-}
-
-CompareCase captured_case(const fs::path& file) {
-  const CapturedProblem captured = read_captured(file);
-  const std::string run = run_of_captured(file);
-  return {.name = run + "/" + file.stem().string(),
-          .family = run + (captured.phase == "none" ? "" : ", " + captured.phase),
-          .load = [file] { return load_captured(file); },
-          .has_bodies = true};
-}
-
-/// What cannot be read says so when it is loaded: it is one row, and the others go on.
 CompareCase file_case(const fs::path& file) {
+  CompareCase made{.name = file.filename().string(),
+                   .family = family_of_file(file.filename().string()),
+                   .load =
+                       [file] {
+                         if (!is_there(file)) throw Error(file.string() + ": no such file");
+                         return load_case(read_problem(file));
+                       },
+                   .word = file.string()};
   try {
-    if (is_there(file) && is_captured(file)) return captured_case(file);
+    if (!is_captured(file)) return made;
+    const std::string run = run_of_captured(file), phase = read_captured(file).phase;
+    made.name = run + "/" + file.stem().string();
+    made.family = run + (phase == "none" ? "" : ", " + phase);
+    made.load = [file] { return load_captured(file); };
+    made.has_bodies = true;
   } catch (const std::exception&) {
+    // What cannot be read says so when it is loaded: it is one row, and the others go on.
   }
-  return stored_case(file);
-}
-
-void add_file_cases(const std::string& word, std::vector<CompareCase>& cases) {
-  std::vector<fs::path> files;
-  for (const FoundProblem& found : find_problems(word)) files.push_back(found.file);
-  for (const fs::path& file : files) {
-    cases.push_back(file_case(file));
-    cases.back().word = file.string();
-  }
+  return made;
 }
 
 /// Equal names: the place in the list decides.
@@ -139,6 +127,142 @@ void make_names_unique(std::vector<CompareCase>& cases) {
   std::map<std::string, int> seen;
   for (CompareCase& c : cases)
     if (const int count = ++seen[c.name]; count > 1) c.name += " (" + std::to_string(count) + ")";
+}
+
+// Problems that are made on the spot: manufactured ones with known solutions, piles, and those that
+// break solvers.
+
+/// "kind:what,name=value,...". Every setting must be asked for before finish().
+class MadeWord {
+ public:
+  explicit MadeWord(const std::string& word) : word_(word) {
+    for (const std::string& item : split(word.substr(word.find(':') + 1), ',')) {
+      const size_t equals = item.find('=');
+      if (equals == std::string::npos) {
+        if (!what_.empty()) fail(item + ": expected name=value");
+        what_ = item;
+        continue;
+      }
+      const double value = parsed<double>(item.substr(equals + 1)).value_or(-1.0);
+      if (!(value >= 0.0 && value <= 1e9)) fail(item + ": expected a number from 0 to 1e9");
+      values_[item.substr(0, equals)] = value;  // of settings that stand twice the later one holds
+    }
+  }
+
+  const std::string& text() const { return word_; }
+  /// The word without a value; empty: none.
+  const std::string& what() const { return what_; }
+
+  /// Sets `value` where the word does. Of what is counted there may be a million.
+  template <typename Number>
+  void take(const char* name, Number& value, double least = 0.0,
+            double most = std::is_integral_v<Number> ? 1e6 : 1e9) {
+    const auto found = values_.find(name);
+    if (found == values_.end()) return;
+    if (!(found->second >= least)) fail(std::string(name) + ": too small");
+    if (!(found->second <= most)) fail(name + printed(": at most %.0f", most));
+    value =
+        static_cast<Number>(std::is_integral_v<Number> ? std::round(found->second) : found->second);
+    values_.erase(found);
+  }
+  /// Nothing may be left that nobody asked for.
+  void finish() const {
+    if (!values_.empty())
+      fail(values_.begin()->first + ": no such setting; see ballast compare --help");
+  }
+  [[noreturn]] void fail(const std::string& what) const { throw Error(word_ + ": " + what); }
+
+ private:
+  std::string word_, what_;
+  std::map<std::string, double> values_;
+};
+
+/// As many cases as the word says, each of the next seed and with a word that makes it alone.
+template <typename Settings, typename Make>
+void add_seeded(MadeWord& word, Settings settings, const Make& make,
+                std::vector<CompareCase>& cases) {
+  int count = 1;
+  settings.seed = 1;
+  word.take("count", count, 1);
+  word.take("seed", settings.seed, 0.0, 1e9);
+  word.finish();
+  for (; count > 0; --count, ++settings.seed) {
+    cases.push_back(make(settings));
+    cases.back().word = word.text() + (word.text().ends_with(':') ? "" : ",") +
+                        "count=1,seed=" + std::to_string(settings.seed);
+  }
+}
+
+void add_known_cases(MadeWord& word, std::vector<CompareCase>& cases) {
+  if (!word.what().empty()) word.fail(word.what() + ": expected name=value");
+  KnownSolutionSettings settings;
+  word.take("bodies", settings.bodies, 2);
+  word.take("contacts", settings.contacts, 1);
+  word.take("mass_ratio", settings.mass_ratio, 1.0);
+  word.take("friction_min", settings.friction_min);
+  word.take("friction_max", settings.friction_max);
+  word.take("open", settings.open_fraction);
+  word.take("slip", settings.slip_fraction);
+  word.take("frictionless", settings.frictionless_fraction);
+  word.take("copies", settings.copies, 1);
+  const auto make = [](const KnownSolutionSettings& s) {
+    return CompareCase{printed("known-b%d-c%dx%d-R%g-s%llu", s.bodies, s.contacts, s.copies,
+                               s.mass_ratio, static_cast<unsigned long long>(s.seed)),
+                       "known", [s] { return load_case(make_known_solution(s).problem); }};
+  };
+  add_seeded(word, settings, make, cases);
+}
+
+/// "pile-c120-d0.4-R1000-f0.2..0.7-a0.8-s3", "-w" behind where only W is stored.
+CompareCase pile_case(const PileSettings& s) {
+  const char* size = s.contacts < 20 ? "small" : s.contacts < 150 ? "mid" : "large";
+  return {printed("pile-c%d-d%.2g-R%.2g-f%.2g..%.2g-a%.2g-s%llu%s", s.contacts, s.redundancy,
+                  s.mass_ratio, s.friction_min, s.friction_max, s.active,
+                  static_cast<unsigned long long>(s.seed), s.is_stored ? "-w" : ""),
+          std::string("pile, ") + size, [s] { return load_case(make_pile(s)); }};
+}
+
+/// pile: with every setting given. pile:family: all drawn from seeds one after the other.
+void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
+  if (word.what() == "family") {
+    struct Family {
+      int most = 1000;
+      std::uint64_t seed = 1;
+    } family;
+    word.take("contacts", family.most, 2);
+    const auto make = [](const Family& f) { return pile_case(random_pile(f.seed, f.most)); };
+    add_seeded(word, family, make, cases);
+    return;
+  }
+  if (!word.what().empty()) word.fail(word.what() + ": expected family or name=value");
+  PileSettings settings;
+  word.take("contacts", settings.contacts, 1);
+  word.take("redundancy", settings.redundancy);
+  if (settings.redundancy >= 1.0) word.fail("redundancy: expected a number below 1");
+  word.take("mass_ratio", settings.mass_ratio, 1.0);
+  word.take("friction_min", settings.friction_min);
+  settings.friction_max = std::max(settings.friction_min, settings.friction_max);
+  word.take("friction_max", settings.friction_max);
+  if (settings.friction_max < settings.friction_min)
+    word.fail("friction_max: expected at least friction_min");
+  word.take("active", settings.active, 0.0, 1.0);
+  word.take("slenderness", settings.slenderness, 1e-3);
+  word.take("shear", settings.shear);
+  word.take("mass_unit", settings.mass_unit, 1e-9);
+  word.take("stored", settings.is_stored, 0, 1);
+  add_seeded(word, settings, pile_case, cases);
+}
+
+/// Every small problem.
+void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
+  if (word.what() != "all") word.fail("expected stress:all");
+  word.finish();
+  for (const StressProblem& stress : stress_problems()) {
+    // the manufactured ones have no gravity
+    const double scale = stress.family == "manufactured" ? 0.0 : made_gravity_step;
+    const auto load = [problem = stress.problem, scale] { return load_case(problem, scale); };
+    cases.push_back({"stress-" + stress.name, "stress " + stress.family, load, word.text()});
+  }
 }
 
 }  // namespace
@@ -155,10 +279,16 @@ std::string family_of_file(const std::string& file_name) {
 std::vector<CompareCase> compare_cases(const std::vector<std::string>& words) {
   std::vector<CompareCase> cases;
   for (const std::string& word : words) {
-    if (is_made_case(word))
-      add_made_cases(word, cases);
-    else
-      add_file_cases(word, cases);
+    const auto begins = [&](const char* kind) { return word.starts_with(kind); };
+    if (begins("known:") || begins("pile:") || begins("stress:")) {
+      MadeWord made(word);
+      const auto add = begins("known:")  ? add_known_cases
+                       : begins("pile:") ? add_piles
+                                         : add_stress_cases;
+      add(made, cases);
+    } else {
+      for (const FoundProblem& found : find_problems(word)) cases.push_back(file_case(found.file));
+    }
   }
   make_names_unique(cases);
   return cases;
@@ -184,35 +314,28 @@ std::string content_of(const FrictionProblem& problem, const Impulses& start, do
   return hash_text(hash);
 }
 
-LoadedCase load_case(FrictionProblem problem, double velocity_scale) {
+LoadedCase load_case(FrictionProblem problem, double velocity_scale, Impulses warm_start) {
   problem.validate();
+  // what the judge calls velocity scale: the rms of q; a problem at rest (q = 0) has none
+  if (!(velocity_scale > 0.0))
+    velocity_scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
+  if (!(velocity_scale > 0.0)) velocity_scale = 1.0;
   LoadedCase loaded;
   loaded.problem = std::move(problem);
-  // what the judge calls velocity scale: the rms of q
-  if (!(velocity_scale > 0.0))
-    velocity_scale =
-        contact_error(loaded.problem, Impulses::Zero(loaded.problem.row_count())).velocity_scale;
-  loaded.facts = case_facts(loaded.problem, {}, velocity_scale);
+  loaded.warm_start = std::move(warm_start);
+  CaseFacts& facts = loaded.facts;
+  facts.contacts = loaded.problem.contact_count();
+  facts.rows = loaded.problem.row_count();
+  const std::set<int> touched = touched_bodies(loaded.problem);
+  for (const int body : touched) facts.dofs += loaded.problem.dynamics.body_dofs(body);
+  facts.rank_deficiency = rank_deficiency(loaded.problem, facts.dofs);
+  facts.mass_ratio = mass_ratio(loaded.problem, touched);
+  facts.velocity_scale = velocity_scale;
+  facts.content = content_of(loaded.problem, loaded.warm_start, velocity_scale);
   loaded.describe_contact = [](int c) {
     return c < 0 ? std::string() : "contact " + std::to_string(c);
   };
   return loaded;
-}
-
-CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start,
-                     double velocity_scale) {
-  problem.validate();
-  CaseFacts facts;
-  facts.contacts = problem.contact_count();
-  facts.rows = problem.row_count();
-  const std::set<int> touched = touched_bodies(problem);
-  for (const int body : touched) facts.dofs += problem.dynamics.body_dofs(body);
-  facts.rank_deficiency = rank_deficiency(problem, facts.dofs);
-  facts.mass_ratio = mass_ratio(problem, touched);
-  // a problem at rest (q = 0) has no scale of its own
-  facts.velocity_scale = velocity_scale > 0.0 ? velocity_scale : 1.0;
-  facts.content = content_of(problem, warm_start, facts.velocity_scale);
-  return facts;
 }
 
 }  // namespace ballast

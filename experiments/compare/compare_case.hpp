@@ -45,25 +45,17 @@ struct CompareCase {
 
 /// Each word is one of
 ///   a file (.hdf5, .h5, .dat), a folder (all such files in and below it), a pattern with * ? [ ]
-///   known:..., pile:..., stress:... (made_cases.cpp has the settings; ballast compare --help lists
-///   them)
+///   known:..., pile:..., stress:...: problems made on the spot (ballast compare --help lists the
+///   settings)
 /// Files come sorted; equal names get their place in the list after them: "a.dat (2)". A file that
 /// is missing or broken is a case, whose load() throws. Throws Error for words that name nothing: a
 /// pattern without matches, a folder without problems, another kind of file, an unknown setting.
 std::vector<CompareCase> compare_cases(const std::vector<std::string>& words);
 
-/// Problems made on the spot: words that begin with known:, pile: or stress:.
-bool is_made_case(const std::string& word);
-void add_made_cases(const std::string& word,
-                    std::vector<CompareCase>& cases);  ///< throws Error
-
-/// A case without warm start; errors are relative to `velocity_scale` [m/s], or to the rms of q
-/// when that is 0. Throws InvalidProblem.
-LoadedCase load_case(FrictionProblem problem, double velocity_scale = 0.0);
-
-/// Measures a problem. Throws InvalidProblem.
-CaseFacts case_facts(const FrictionProblem& problem, const Impulses& warm_start,
-                     double velocity_scale);
+/// Measures a problem. Errors are relative to `velocity_scale` [m/s], or to the rms of q when that
+/// is 0. Throws InvalidProblem.
+LoadedCase load_case(FrictionProblem problem, double velocity_scale = 0.0,
+                     Impulses warm_start = {});
 
 /// CaseFacts::content: all bits of the problem, its start and its scale.
 std::string content_of(const FrictionProblem& problem, const Impulses& start, double scale);

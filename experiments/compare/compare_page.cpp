@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/compare/compare_table.hpp"
+#include "experiments/measure/curve_fit.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/page/plot.hpp"
 #include "experiments/run_page/report.hpp"
@@ -173,7 +175,7 @@ std::string again(const RunData& data, const CompareRow& row) {
 /// Least error so far: seconds, prepare included, and error by turns, four digits each.
 Json history_json(const CompareRow& row, size_t limit) {
   std::vector<double> seconds, errors;
-  for (const HistoryRow& point : row.history) {
+  for (const HistoryPoint& point : row.history) {
     if (!std::isfinite(point.error) || (!errors.empty() && point.error >= errors.back())) continue;
     seconds.push_back(row.prepare_seconds + point.seconds);
     errors.push_back(point.error);
@@ -185,6 +187,30 @@ Json history_json(const CompareRow& row, size_t limit) {
       flat.push_back(parsed_number(printed("%.4g", value)).value_or(0.0));
   return flat;
 }
+
+/// A backend's summary under way.
+struct Tally {
+  BackendSummary summary;
+  std::vector<double> times, ratios;  ///< logarithms, shifted
+
+  void add(const RepeatedSolve& solve, double best, double limit) {
+    const Verdict verdict = solve.row->verdict;
+    const double seconds = solve.solved ? std::min(solve.median, limit) : limit;
+    summary.law = solve.row->law;
+    summary.solved += solve.solved;
+    summary.unsolved += !solve.solved;
+    summary.timeouts += verdict == Verdict::timeout;
+    summary.crashes += verdict == Verdict::crashed || verdict == Verdict::out_of_memory;
+    summary.unsupported += verdict == Verdict::unsupported;
+    summary.no_solutions += verdict == Verdict::no_solution;
+    summary.denied += verdict == Verdict::denied;
+    if (solve.median > 0.0)
+      summary.largest_spread =
+          std::max(summary.largest_spread, (solve.slowest - solve.fastest) / solve.median);
+    times.push_back(std::log(seconds + summary_shift));
+    if (std::isfinite(best)) ratios.push_back(times.back() - std::log(best + summary_shift));
+  }
+};
 
 }  // namespace
 
@@ -238,11 +264,10 @@ void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows
 RunData read_origin(const fs::path& folder) {
   RunData data;
   data.folder = folder;
-  data.manifest_text = read_whole_file(folder / "manifest.json");
-  data.stored_manifest =
-      std::make_shared<const Json>(Json::parse(data.manifest_text, nullptr, false));
-  if (!data.manifest().is_object())
-    throw Error((folder / "manifest.json").string() + ": is no JSON object");
+  const fs::path file = folder / "manifest.json";
+  auto parsed = Json::parse(read_whole_file(file), nullptr, false);
+  if (!parsed.is_object()) throw Error(file.string() + ": is no JSON object");
+  data.stored_manifest = std::make_shared<const Json>(std::move(parsed));
   return data;
 }
 
@@ -251,6 +276,66 @@ void write_with_origin(page::Page page, const RunData& data, const fs::path& fil
   page.add({"provenance", "Program and machine", {provenance_table(data)}});
   page::draw_pictures(page, file.parent_path());
   page::write_html_file(file, page);
+}
+
+RepeatedSolve over_repeats(const std::vector<const CompareRow*>& repeats) {
+  RepeatedSolve solve{repeats.front()};
+  std::vector<double> seconds;
+  for (const CompareRow* row : repeats) {
+    const bool solved = row->verdict == Verdict::solved;
+    solve.solved = solve.solved && solved;
+    if (solved && (solve.row->verdict != Verdict::solved || row->seconds() < solve.row->seconds()))
+      solve.row = row;
+    seconds.push_back(row->seconds());
+  }
+  if (!solve.solved) return solve;
+  solve.fastest = std::ranges::min(seconds);
+  solve.slowest = std::ranges::max(seconds);
+  solve.median = quantile(seconds, 0.5);
+  return solve;
+}
+
+std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
+  // by start and tolerance, then by case, then by backend
+  std::map<std::pair<StartKind, double>,
+           std::map<std::string, std::map<std::string, std::vector<const CompareRow*>>>>
+      groups;
+  for (const CompareRow& row : rows)
+    if (row.verdict != Verdict::unreadable)
+      groups[{row.start, -row.tolerance}][row.case_name][row.solver].push_back(&row);
+  const double limit = limit_of(rows);
+  std::vector<CompareTable> tables;
+  for (const auto& [what, cases] : groups) {
+    std::map<std::string, Tally> tallies;
+    for (const auto& [name, by_solver] : cases) {
+      double best = std::numeric_limits<double>::infinity();
+      for (const auto& [solver, repeats] : by_solver)
+        if (const RepeatedSolve solve = over_repeats(repeats); solve.solved)
+          best = std::min(best, solve.median);
+      for (const auto& [solver, repeats] : by_solver)
+        tallies[solver].add(over_repeats(repeats), best, limit);
+    }
+    CompareTable& table = tables.emplace_back();
+    table.heading = printed("Tolerance %g, %s start", -what.second, name_of(what.first));
+    table.cases = cases.size();
+    for (auto& [solver, tally] : tallies) {
+      tally.summary.solver = solver;
+      tally.summary.mean_seconds = std::exp(statistics(tally.times).mean) - summary_shift;
+      tally.summary.mean_ratio = std::exp(statistics(tally.ratios).mean);
+      table.backends.push_back(std::move(tally.summary));
+    }
+    std::stable_sort(
+        table.backends.begin(), table.backends.end(), [](const auto& a, const auto& b) {
+          return a.solved != b.solved ? a.solved > b.solved : a.mean_seconds < b.mean_seconds;
+        });
+  }
+  return tables;
+}
+
+double limit_of(std::span<const CompareRow> rows) {
+  double limit = 0.0;
+  for (const CompareRow& row : rows) limit = std::max(limit, row.max_seconds);
+  return limit;
 }
 
 }  // namespace ballast

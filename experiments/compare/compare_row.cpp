@@ -149,7 +149,7 @@ std::string to_json(const CompareRow& row) {
   for_columns(
       row, [&](const char* name, const auto& value, const char*) { json[name] = json_of(value); });
   Json& history = json["history"] = Json::array();
-  for (const HistoryRow& h : row.history)
+  for (const HistoryPoint& h : row.history)
     history.push_back({h.iteration, json_of(h.seconds), json_of(h.error)});
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -161,7 +161,7 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file)
     for_columns(row,
                 [&](const char* name, auto& value, const char*) { take(json.at(name), value); });
     for (const Json& h : json.at("history")) {
-      HistoryRow point;
+      HistoryPoint point;
       take(h.at(0), point.iteration);
       take(h.at(1), point.seconds);
       take(h.at(2), point.error);

@@ -24,14 +24,6 @@ const char* name_of(StartKind start);
 Measure measure_of(const std::string& name);
 StartKind start_of(const std::string& name);
 
-/// One point of an error-against-time history. prepare() is not in `seconds`.
-struct HistoryRow {
-  int iteration = 0;
-  double seconds = 0.0;  ///< of solve(), start-up apart
-  double error =
-      0.0;  ///< scaled natural map rms over the case's velocity scale: the backend's own figure
-};
-
 struct CompareRow {
   // what was tried
   std::string key, case_name, family, solver, law;
@@ -55,7 +47,9 @@ struct CompareRow {
   /// foreign library's form and judging its answers on the way.
   double startup_seconds = 0.0;
   double peak_memory_MB = 0.0;
-  std::vector<HistoryRow> history;
+  /// Errors as the backend has them: scaled natural map rms, over the case's velocity scale.
+  /// Seconds are of solve(), start-up apart.
+  std::vector<HistoryPoint> history;
 
   // what the judge says, in another process
   /// Over the time limit it is `timeout`, be it solved or not.

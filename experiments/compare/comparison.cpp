@@ -1,51 +1,203 @@
 #include "experiments/compare/comparison.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <new>
 #include <optional>
 #include <set>
+#include <stdexcept>
+#include <utility>
 
-#include "experiments/measure/exact_answer.hpp"
+#include <sys/resource.h>
+
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/program.hpp"
+#include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
+#include "platform/pack.hpp"
 #include "platform/text.hpp"
+#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Attempt {
-  const ComparedSolver* solver;
-  double tolerance;
-  StartKind start;
+/// What the process that solves says: its share of the row, and what the judge needs.
+struct Account {
+  CompareRow row;
+  Solved solved;  ///< reason and impulses; row.reason is the name of the first, or empty
 };
 
-/// In the order in which they are tried on one case.
-std::vector<Attempt> attempts_of(const CompareOptions& options, const LoadedCase& loaded) {
-  std::vector<Attempt> attempts;
-  for (const double tolerance : options.tolerances)
-    for (const StartKind start : options.starts) {
-      if (start == StartKind::warm && loaded.warm_start.size() == 0) continue;
-      for (const ComparedSolver& solver : options.solvers)
-        attempts.push_back({&solver, tolerance, start});
-    }
-  return attempts;
+void limit_memory(double memory_MB) {
+  if (!(memory_MB > 0.0)) return;
+  const rlimit limit{static_cast<rlim_t>(memory_MB * 1048576.0),
+                     static_cast<rlim_t>(memory_MB * 1048576.0)};
+  setrlimit(RLIMIT_AS, &limit);
 }
 
-std::string key_of(const CompareOptions& options, const std::string& binary,
-                   const CompareCase& tried, const CaseFacts& facts, const Attempt& attempt,
-                   int repeat) {
-  const std::string numbers =
-      printed("%.17g %.17g %.17g %d %.17g %.17g %d %d", attempt.tolerance, options.max_seconds,
-              options.exact_seconds, options.limits.max_iterations, options.limits.memory_MB,
-              options.limits.warm_seconds, options.limits.most_runs, repeat);
-  return content_key("compare row 4|" + binary + '|' + tried.name + '|' + facts.content + '|' +
-                     attempt.solver->name + '|' + attempt.solver->external_key + '|' +
-                     name_of(options.measure) + '|' + name_of(attempt.start) + '|' + numbers);
+/// Of this process or of the largest one that it waited for [MB].
+double peak_memory() {
+  double peak = 0.0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    peak = std::max(peak, static_cast<double>(usage.ru_maxrss) / 1024.0);
+  }
+  return peak;
 }
+
+SolverRun drive(Solver& solver, const LoadedCase& loaded, const SolveLimits& limits,
+                const CompareRow& row) {
+  Budget budget{.tolerance = row.tolerance * loaded.facts.velocity_scale,
+                .max_iterations = limits.max_iterations,
+                .max_seconds = row.max_seconds,
+                .keep_history = true};
+  std::optional<FclibStop> fclib;
+  if (row.measure == Measure::fclib) {
+    budget.fclib = &fclib.emplace(loaded.problem, row.tolerance);
+    budget.tolerance = 0.0;  // the natural map has no say
+  }
+  const Impulses from = row.start == StartKind::warm ? loaded.warm_start : Impulses();
+  return SolverRunner().run(solver, loaded.problem, from, budget);
+}
+
+void take_run(SolverRun&& run, double velocity_scale, Account& account) {
+  CompareRow& row = account.row;
+  row.reason = run.failure.empty() ? name_of(run.solved.reason) : "";
+  row.note = run.failure;
+  if (run.failure == std::bad_alloc().what()) row.verdict = Verdict::out_of_memory;
+  row.iterations = run.solved.iterations;
+  row.prepare_seconds = run.prepare_seconds;
+  row.solve_seconds = run.solve_seconds;
+  row.history = std::move(run.solved.history);
+  for (HistoryPoint& point : row.history) point.error /= velocity_scale;
+  account.solved = std::move(run.solved);
+}
+
+/// A new solver for each run: nothing is carried over but caches.
+void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                      Account& account) {
+  CompareRow& row = account.row;
+  double spent = 0.0;
+  do {
+    const Stopwatch watch;
+    const std::unique_ptr<Solver> solver = make();
+    const double making = watch.seconds();
+    SolverRun run = drive(*solver, loaded, limits, row);
+    const double seconds = run.prepare_seconds + run.solve_seconds;
+    // What is loaded and started once is seen in the first run alone.
+    if (row.runs == 0) row.startup_seconds = making + run.startup_seconds;
+    if (row.runs == 0 || seconds < row.seconds())
+      take_run(std::move(run), loaded.facts.velocity_scale, account);
+    ++row.runs;
+    spent += watch.seconds();
+  } while (account.solved.reason == StopReason::reached_tolerance && row.runs < limits.most_runs &&
+           spent + row.seconds() < limits.warm_seconds);
+}
+
+/// The whole of what the child does.
+Account solve_here(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                   const CompareRow& row) {
+  Account account{row, {}};
+  account.row.verdict = Verdict::unsolved;
+  try {
+    drive_repeatedly(make, loaded, limits, account);
+  } catch (const UnsupportedProblem& error) {
+    account.row.verdict = Verdict::unsupported;
+    account.row.note = error.what();
+  } catch (const LostProcess& error) {
+    account.row.verdict = error.is_out_of_time ? Verdict::timeout : Verdict::crashed;
+    account.row.note = error.what();
+  } catch (const std::bad_alloc&) {
+    account.row.verdict = Verdict::out_of_memory;
+  } catch (const std::exception& error) {
+    account.row.note = error.what();
+  }
+  return account;
+}
+
+/// A row without an answer has no error, not a small one.
+void clear_measures(CompareRow& row) {
+  row.error = row.natural_map_rms = row.natural_map_max = row.fclib = std::nan("");
+}
+
+/// The judge's measures of an answer, and what they and the backend's word come to.
+void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
+  clear_measures(row);
+  const Impulses& impulses = account.solved.impulses;
+  const StopReason reason = account.solved.reason;
+  if (impulses.size() != loaded.problem.row_count()) return;
+  const double scale = loaded.facts.velocity_scale;
+  SolverRun run;
+  run.solved = account.solved;
+  run.error = contact_error(loaded.problem, impulses);
+  const ContactError& error = run.error;
+  row.natural_map_rms = error.natural_map_rms;
+  row.natural_map_max = error.natural_map_max;
+  row.fclib = error.fclib;
+  row.cone_violation = error.cone_violation;
+  row.min_normal_velocity = error.min_normal_velocity;
+  row.worst = loaded.describe_contact(error.worst_contact);
+  row.distance = answer_distance(loaded.problem, impulses, loaded.exact, scale);
+  const bool by_fclib = row.measure == Measure::fclib;
+  row.error = by_fclib ? error.fclib : error.natural_map_rms / scale;
+  if (row.reason.empty()) return;
+  run.verdict =
+      verdict_of(reason, error, by_fclib ? row.tolerance : row.tolerance * scale, by_fclib);
+  const std::string words = explained(loaded.problem, run, row.tolerance * scale);
+  row.verdict = run.verdict;
+  // What the natural map misses is no reason where another measure was asked for.
+  if (row.verdict == Verdict::no_solution || (row.verdict == Verdict::denied && !by_fclib))
+    row.note = words;
+  const bool is_late = row.seconds() > row.max_seconds;
+  if ((row.verdict == Verdict::solved && is_late) ||
+      (row.verdict == Verdict::unsolved && (is_late || reason == StopReason::time_limit)))
+    row.verdict = Verdict::timeout;
+}
+
+constexpr double exact_tolerance = 1e-9;
+
+bool is_exact(const LoadedCase& loaded, const Impulses& impulses) {
+  return impulses.size() == loaded.problem.row_count() && impulses.allFinite() &&
+         contact_error(loaded.problem, impulses)
+             .within(exact_tolerance * loaded.facts.velocity_scale);
+}
+
+std::string packed(const Impulses& impulses) {
+  Packer packer;
+  packer.list(impulses);
+  return packer.bytes();
+}
+
+/// Empty where the bytes are damaged.
+Impulses unpacked(const std::string& bytes) {
+  Impulses impulses;
+  try {
+    Unpacker unpacker(bytes, "an exact answer");
+    unpacker.list(impulses);
+    unpacker.finish();
+  } catch (const Error&) {
+    return {};
+  }
+  return impulses;
+}
+
+/// What `solver` comes to within `seconds`; empty where it cannot.
+Impulses attempt(const char* solver, const LoadedCase& loaded, double seconds) {
+  const Budget budget{.tolerance = exact_tolerance * loaded.facts.velocity_scale,
+                      .max_iterations = 1 << 30,
+                      .max_seconds = seconds};
+  const ChildResult child = run_in_child(1.25 * seconds + 2.0, [&] {
+    return packed(SolverRunner()
+                      .run(*make_solver(solver), loaded.problem, loaded.warm_start, budget)
+                      .solved.impulses);
+  });
+  return child.end == ChildEnd::complete ? unpacked(child.answer) : Impulses();
+}
+
+namespace fs = std::filesystem;
 
 /// One comparison under way.
 class Comparison {
@@ -69,96 +221,96 @@ class Comparison {
 
  private:
   void try_case(const CompareCase& tried, int repeat) {
-    const size_t planned =
-        options_.tolerances.size() * options_.starts.size() * options_.solvers.size();
-    if (unreadable_.contains(tried.name)) {
-      done_ += planned;
-      return;
-    }
-    LoadedCase loaded;
-    try {
-      loaded = tried.load();
-    } catch (const std::exception& error) {
-      done_ += planned;
-      add_unreadable(tried, error.what());
-      return;
-    }
-    look_for_exact(loaded);
-    const std::vector<Attempt> attempts = attempts_of(options_, loaded);
-    done_ += planned - attempts.size();
-    for (const Attempt& attempt : attempts) {
-      if (!goes_on_) return;
-      ++done_;
-      const std::string identity = tried.name + '|' + attempt.solver->name + '|' +
-                                   name_of(attempt.start) + '|' + std::to_string(attempt.tolerance);
-      if (repeat > 0 && unsolved_.contains(identity)) continue;
-      bool was_there = false;
-      CompareRow row = row_of(tried, loaded, attempt, repeat, was_there);
-      if (row.verdict != Verdict::solved) unsolved_.insert(identity);
-      goes_on_ = progress_(row, was_there, done_, count_);
-      rows_.push_back(std::move(row));
-    }
-  }
-
-  void look_for_exact(LoadedCase& loaded) const {
-    const ExactSearch search{loaded.facts.velocity_scale, options_.exact_seconds,
-                             options_.folder / "exact", loaded.facts.content};
-    if (auto found = find_exact_answer(loaded.problem, loaded.warm_start, search))
-      loaded.exact = std::move(found->impulses);
-  }
-
-  CompareRow blank_row(const CompareCase& tried) const {
+    const size_t pairs = options_.tolerances.size() * options_.solvers.size();
+    std::vector<StartKind> starts = options_.starts;
     CompareRow row;
     row.case_name = tried.name;
     row.family = tried.family;
     row.measure = options_.measure;
     row.max_seconds = options_.max_seconds;
-    return row;
+    row.repeat = repeat;
+    row.word = tried.word;
+    LoadedCase loaded;
+    try {
+      if (unreadable_.contains(tried.name))
+        starts.clear();
+      else
+        loaded = tried.load();
+    } catch (const std::exception& error) {
+      // One row for the case, whatever was to be tried on it. It has no file: the case may be
+      // mended.
+      starts.clear();
+      unreadable_.insert(tried.name);
+      row.verdict = Verdict::unreadable;
+      row.note = error.what();
+    }
+    if (loaded.warm_start.size() == 0) std::erase(starts, StartKind::warm);
+    done_ += pairs * (options_.starts.size() - starts.size());
+    if (row.verdict == Verdict::unreadable) add(std::move(row), false);
+    if (starts.empty()) return;
+    find_exact(loaded, options_.exact_seconds, options_.folder / "exact");
+    row.facts = loaded.facts;
+    for (const double tolerance : options_.tolerances)
+      for (const StartKind start : starts)
+        for (const ComparedSolver& solver : options_.solvers) {
+          if (!goes_on_) return;
+          ++done_;
+          row.solver = solver.name;
+          row.law = name_of(solver.law);
+          row.tolerance = tolerance;
+          row.start = start;
+          row.can_view = tried.has_bodies && solver.external_key.empty();
+          attempt(loaded, solver, row);
+        }
   }
 
-  /// One row for the case, whatever was to be tried on it. It has no file: the case may be mended.
-  void add_unreadable(const CompareCase& tried, const std::string& why) {
-    unreadable_.insert(tried.name);
-    CompareRow row = blank_row(tried);
-    row.verdict = Verdict::unreadable;
-    row.note = why;
-    goes_on_ = progress_(row, false, done_, count_);
+  void add(CompareRow row, bool was_there) {
+    goes_on_ = progress_(row, was_there, done_, count_);
     rows_.push_back(std::move(row));
   }
 
-  /// The row that is there already; none when there is no file, or a damaged one.
-  static std::optional<CompareRow> stored_row(const fs::path& file) {
-    if (!is_there(file)) return std::nullopt;
-    try {
-      return compare_row_of_json(read_whole_file(file), file.string());
-    } catch (const Error&) {
-      return std::nullopt;
-    }
+  std::string key_of(const CompareRow& row, const ComparedSolver& solver) const {
+    const SolveLimits& limits = options_.limits;
+    const std::string numbers =
+        printed("%.17g %.17g %.17g %d %.17g %.17g %d %d", row.tolerance, row.max_seconds,
+                options_.exact_seconds, limits.max_iterations, limits.memory_MB,
+                limits.warm_seconds, limits.most_runs, row.repeat);
+    return content_key("compare row 4|" + binary_ + '|' + row.case_name + '|' + row.facts.content +
+                       '|' + row.solver + '|' + solver.external_key + '|' + name_of(row.measure) +
+                       '|' + name_of(row.start) + '|' + numbers);
   }
 
-  CompareRow row_of(const CompareCase& tried, const LoadedCase& loaded, const Attempt& attempt,
-                    int repeat, bool& was_there) const {
-    CompareRow row = blank_row(tried);
-    row.key = key_of(options_, binary_, tried, loaded.facts, attempt, repeat);
+  /// The row that is there already, or one that is made now and kept; unsolved ones are not
+  /// repeated.
+  void attempt(const LoadedCase& loaded, const ComparedSolver& solver, CompareRow row) {
+    const std::string identity = row.case_name + '|' + row.solver + '|' + name_of(row.start) + '|' +
+                                 std::to_string(row.tolerance);
+    if (row.repeat > 0 && unsolved_.contains(identity)) return;
+    row.key = key_of(row, solver);
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
-    if (std::optional<CompareRow> stored = stored_row(file)) {
-      was_there = true;
-      row = std::move(*stored);
+    const bool was_there = take_stored(file, row);
+    if (!was_there) {
+      const auto solve = solver.external_key.empty() ? solve_in_child : solve_outside;
+      solve(solver.make, loaded, options_.limits, row);
+      // an interrupt reaches the child as well: what it left is no result
+      if (!InterruptGuard::requested()) write_whole_file(file, to_json(row));
     }
-    row.word = tried.word;
-    row.can_view = tried.has_bodies && attempt.solver->external_key.empty();
-    if (was_there) return row;
-    row.solver = attempt.solver->name;
-    row.law = name_of(attempt.solver->law);
-    row.tolerance = attempt.tolerance;
-    row.start = attempt.start;
-    row.repeat = repeat;
-    row.facts = loaded.facts;
-    const auto solve = attempt.solver->external_key.empty() ? solve_in_child : solve_outside;
-    solve(attempt.solver->make, loaded, options_.limits, row);
-    // an interrupt reaches the child as well: what it left is no result
-    if (!InterruptGuard::requested()) write_whole_file(file, to_json(row));
-    return row;
+    if (row.verdict != Verdict::solved) unsolved_.insert(identity);
+    add(std::move(row), was_there);
+  }
+
+  /// False: there is no file, or a damaged one.
+  static bool take_stored(const fs::path& file, CompareRow& row) {
+    if (!is_there(file)) return false;
+    try {
+      CompareRow stored = compare_row_of_json(read_whole_file(file), file.string());
+      stored.word = row.word;
+      stored.can_view = row.can_view;
+      row = std::move(stored);
+    } catch (const Error&) {
+      return false;
+    }
+    return true;
   }
 
   void describe(Manifest& manifest) const {
@@ -189,7 +341,78 @@ class Comparison {
   bool goes_on_ = true;
 };
 
+/// The words between the commas of a list; `what` says what was expected there.
+std::vector<std::string> words_of(const std::string& list, const std::string& what) {
+  std::vector<std::string> words = split(list, ',');
+  for (const std::string& word : words)
+    if (word.empty())
+      throw std::invalid_argument("'" + list + "': expected " + what + ", separated by commas");
+  return words;
+}
+
 }  // namespace
+
+void find_exact(LoadedCase& loaded, double max_seconds, const std::filesystem::path& folder) {
+  if (!(max_seconds > 0.0)) return;
+  const std::filesystem::path file = folder / (loaded.facts.content + ".exact");
+  if (is_there(file)) loaded.exact = unpacked(read_whole_file(file));
+  if (is_exact(loaded, loaded.exact)) return;
+  for (const char* solver : {"newton_burst", "auto"}) {
+    loaded.exact = attempt(solver, loaded, 0.5 * max_seconds);
+    if (!is_exact(loaded, loaded.exact)) continue;
+    create_folder(folder);
+    return write_whole_file(file, packed(loaded.exact));
+  }
+  loaded.exact.resize(0);
+}
+
+void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                    CompareRow& row) {
+  // Backends look at the clock between iterations, prepare() never does: some grace before the
+  // child is killed.
+  const double most_seconds = 1.25 * row.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
+  const ChildResult child = run_in_child(most_seconds, [&] {
+    limit_memory(limits.memory_MB);
+    Account account = solve_here(make, loaded, limits, row);
+    account.row.peak_memory_MB = peak_memory();
+    Packer packer;
+    packer.text(to_json(account.row));
+    packer.number(account.solved.reason);
+    packer.list(account.solved.impulses);
+    return packer.bytes();
+  });
+  if (child.end != ChildEnd::complete) {
+    const bool is_late = child.end == ChildEnd::out_of_time;
+    clear_measures(row);
+    row.verdict = is_late ? Verdict::timeout : Verdict::crashed;
+    row.note = is_late ? "killed: did not stop at the time limit" : "the child process died";
+    row.solve_seconds = is_late ? most_seconds : 0.0;
+    return;
+  }
+  const std::string origin = "ballast compare: a child's answer";
+  Account account;
+  std::string text;
+  Unpacker unpacker(child.answer, origin);
+  unpacker.text(text);
+  unpacker.number(account.solved.reason);
+  unpacker.list(account.solved.impulses);
+  unpacker.finish();
+  account.row = compare_row_of_json(text, origin);
+  account.row.word = row.word;
+  account.row.can_view = row.can_view;
+  row = std::move(account.row);
+  judge(loaded, account, row);
+}
+
+void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                   CompareRow& row) {
+  const Stopwatch watch;
+  Account account = solve_here(make, loaded, limits, row);
+  row = std::move(account.row);
+  row.peak_memory_MB = std::nan("");
+  if (row.verdict == Verdict::timeout) row.solve_seconds = watch.seconds();
+  judge(loaded, account, row);
+}
 
 std::vector<CompareRow> run_comparison(const std::vector<CompareCase>& cases,
                                        const CompareOptions& options,
@@ -209,6 +432,58 @@ std::string loaded_blas() {
       if (line.find('/') != std::string::npos && name.rfind(beginning, 0) == 0) found.insert(name);
   }
   return found.empty() ? "none" : joined(found);
+}
+
+std::vector<ComparedSolver> parse_solvers(const std::string& list) {
+  std::vector<ComparedSolver> solvers;
+  if (list == "all") {
+    for (const SolverEntry& entry : solver_list())
+      if (entry.make) solvers.push_back({entry.name, entry.law, entry.make});
+    return solvers;
+  }
+  for (const std::string& name : words_of(list, "names of solvers")) {
+    make_solver(name);  // says what is wrong with a name
+    const SolverEntry& entry = find_solver(name);
+    if (std::none_of(solvers.begin(), solvers.end(),
+                     [&](const ComparedSolver& s) { return s.name == name; }))
+      solvers.push_back({entry.name, entry.law, entry.make});
+  }
+  return solvers;
+}
+
+std::vector<ComparedSolver> external_solvers(const std::vector<std::string>& words,
+                                             const ExternalLimits& limits) {
+  std::vector<ComparedSolver> solvers;
+  for (const ExternalCommand& command : external_commands(words)) {
+    for (const SolverEntry& entry : solver_list())
+      if (command.name == entry.name)
+        throw std::invalid_argument(command.name + ": is the name of one of Ballast's solvers");
+    solvers.push_back(
+        {command.name, ContactLaw::coulomb, external_solver(command, limits), key_of(command)});
+  }
+  return solvers;
+}
+
+std::vector<double> parse_tolerances(const std::string& list) {
+  std::vector<double> tolerances;
+  for (const std::string& word : words_of(list, "numbers > 0")) {
+    const double value = parsed<double>(word).value_or(-1.0);
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw std::invalid_argument("'" + word + "': expected a number > 0");
+    tolerances.push_back(value);
+  }
+  std::sort(tolerances.begin(), tolerances.end(), std::greater<>());
+  tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
+  return tolerances;
+}
+
+std::vector<StartKind> parse_starts(const std::string& list) {
+  std::vector<StartKind> starts;
+  for (const std::string& word : words_of(list, "cold or warm"))
+    if (const StartKind start = start_of(word);
+        std::find(starts.begin(), starts.end(), start) == starts.end())
+      starts.push_back(start);
+  return starts;
 }
 
 }  // namespace ballast

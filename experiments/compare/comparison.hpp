@@ -4,13 +4,50 @@
 
 #include <filesystem>
 #include <functional>
-#include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "experiments/compare/solve_child.hpp"
+#include "experiments/compare/compare_row.hpp"
+#include "experiments/external/external_program.hpp"
+#include "solvers/seam/run_solver.hpp"
 
 namespace ballast {
+
+// One attempt, in a process of its own, under limits of time and memory: what crashes, hangs or
+// eats memory becomes a row. It goes to a tolerance in either measure, timed outside the judge,
+// with its history.
+
+/// Makes a backend of solver_list(), a test's own, or one that starts a program.
+using MakeSolver = std::function<std::unique_ptr<Solver>()>;
+
+struct SolveLimits {
+  int max_iterations = 1 << 30;
+  double memory_MB = 4096.0;  ///< of address space, the program's own included; 0: none
+  double warm_seconds =
+      0.25;  ///< a solve that is shorter is repeated in the child for about so long, and the
+             ///< fastest run counts: what is faster than a page fault is otherwise not measured
+  int most_runs = 20;  ///< in one child
+};
+
+/// Solves the case with a solver made by `make` in a forked child, judges what comes back here, and
+/// fills in what came of it in `row`; what was tried (its measure, tolerance, start and
+/// max_seconds) must be in it. A backend stops on the measure that is asked for: it looks at it
+/// wherever it evaluates its error (Budget::fclib). Throws InvalidProblem.
+void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                    CompareRow& row);
+
+/// The same without a child, for a solver that has its work done in a program under limits of its
+/// own (experiments/external).
+void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                   CompareRow& row);
+
+/// Looks for a solution of the case to measure distances from: LoadedCase::exact, at 1e-9 of the
+/// natural map over the velocity scale. By newton_burst where the bodies are known, then by `auto`,
+/// in a child process from the warm start, within `max_seconds` of wall clock (0: not at all). What
+/// is found is kept in `folder` and judged anew where it is there already. Throws Error where the
+/// folder cannot be written.
+void find_exact(LoadedCase& loaded, double max_seconds, const std::filesystem::path& folder);
 
 /// A backend of a comparison: of solver_list(), a test's own, or a program.
 struct ComparedSolver {
@@ -55,5 +92,23 @@ std::string binary_key();
 /// The BLAS and LAPACK libraries mapped into this process, by their file names:
 /// "libopenblasp-r0.3.21.so"; "none" without.
 std::string loaded_blas();
+
+// The lists on the command lines of `ballast compare` and `ballast bench` -> settings. Everything
+// wrong is a std::invalid_argument that says what was expected.
+
+/// "pgs,nncg", or "all": every backend that was built. Throws UnknownSolver, MissingSolver for
+/// names.
+std::vector<ComparedSolver> parse_solvers(const std::string& list);
+
+/// Programs that solve (experiments/external). Throws std::invalid_argument: also for the name of a
+/// backend.
+std::vector<ComparedSolver> external_solvers(const std::vector<std::string>& words,
+                                             const ExternalLimits& limits);
+
+/// "1e-4,1e-8": numbers > 0, sorted from loose to tight, each once.
+std::vector<double> parse_tolerances(const std::string& list);
+
+/// "cold", "warm", "cold,warm".
+std::vector<StartKind> parse_starts(const std::string& list);
 
 }  // namespace ballast

@@ -108,7 +108,7 @@ void step_on(const LiveOptions& options, Scene scene, Start start, const Compare
              Trajectory& trajectory) {
   scene.solver.name = solver.name;
   scene.solver.tolerance = trajectory.tolerance;
-  scene.solver.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1 << 30;
+  scene.solver.max_iterations = trajectory.max_iterations > 0 ? trajectory.max_iterations : 1 << 30;
   scene.solver.max_seconds = options.max_seconds;
   scene.solver.threads = options.threads;
   TimeStepper stepper(start.system, scene, start.system.first_driven_wall());
@@ -156,19 +156,14 @@ void step_in_child(const LiveOptions& options, const Scene& scene, const Start& 
 /// From its file, or made now and kept there.
 Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const Start& start,
                          const std::string& binary, const ComparedSolver& solver,
-                         double tolerance) {
-  const std::string numbers =
-      printed("|%.17g %.17g %.17g %.17g %d %d", tolerance, options.duration, options.max_seconds,
-              options.trajectory_seconds, options.max_iterations, options.threads);
+                         Trajectory trajectory) {
+  const std::string numbers = printed(
+      "|%.17g %.17g %.17g %.17g %d %d", trajectory.tolerance, options.duration, options.max_seconds,
+      options.trajectory_seconds, trajectory.max_iterations, options.threads);
   const fs::path file =
       options.folder / "trajectories" /
       (content_key("trajectory 4|" + binary + '|' + start.key + '|' + solver.name + numbers) +
        ".bin");
-  Trajectory trajectory;
-  trajectory.solver = solver.name;
-  trajectory.law = name_of(solver.law);
-  trajectory.tolerance = tolerance;
-  trajectory.max_iterations = options.max_iterations;
   if (is_there(file)) {
     const Trajectory fresh = trajectory;
     try {
@@ -234,12 +229,20 @@ LiveComparison run_live(const LiveOptions& options,
   comparison.has_driven_wall = start.system.first_driven_wall() >= 0;
   create_folder(options.folder / "trajectories");
   const std::string binary = binary_key();
+  std::vector<Trajectory> wanted;
+  for (const double tolerance : options.tolerances) wanted.emplace_back().tolerance = tolerance;
+  for (const int count : options.iterations) {
+    wanted.emplace_back().max_iterations = count;
+    wanted.back().tolerance = 1e-12;  // never reached
+  }
   bool goes_on = true;
-  for (const double tolerance : options.tolerances)
+  for (Trajectory& trajectory : wanted)
     for (const ComparedSolver& solver : options.solvers) {
       if (!goes_on || InterruptGuard::requested()) break;
+      trajectory.solver = solver.name;
+      trajectory.law = name_of(solver.law);
       comparison.trajectories.push_back(
-          trajectory_of(options, comparison.scene, start, binary, solver, tolerance));
+          trajectory_of(options, comparison.scene, start, binary, solver, trajectory));
       goes_on = said(comparison.trajectories.back());
     }
   comparison.reference = reference_of(comparison.trajectories);

@@ -44,7 +44,8 @@ struct LiveOptions {
                           ///< [s]; at least one step
   double duration = 0.1;  ///< simulated from there under each backend [s]
   double max_seconds = 60.0;            ///< wall clock of one solve
-  int max_iterations = 0;               ///< of one solve; 0: as many as the tolerance needs
+  std::vector<int> iterations = {};     ///< after the tolerances: so many in every step, whatever
+                                        ///< the error
   int threads = 1;                      ///< of the step and its solver: the same bits
   double trajectory_seconds = 600.0;    ///< wall clock of one trajectory
   std::filesystem::path packing_cache;  ///< empty: <folder>/packings

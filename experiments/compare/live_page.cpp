@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/compare/compare_figures.hpp"
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "platform/atomic_file.hpp"
@@ -290,6 +291,18 @@ void write_live_page(const std::filesystem::path& folder, const LiveComparison& 
   page.add(figures);
   page.answers = {.are_given = true, .with_curves = true, .data = origins_of(comparison)};
   write_with_origin(page, read_origin(folder), folder / "live.html");
+}
+
+Curve backend_curve(size_t k, const std::string& title) {
+  constexpr Ink inks[] = {Ink::blue,   Ink::vermilion, Ink::green, Ink::orange,
+                          Ink::purple, Ink::sky,       Ink::black, Ink::grey};
+  constexpr size_t count = std::size(inks);
+  Curve curve;
+  curve.title = plain_text(title);
+  curve.ink = inks[k % count];
+  curve.dashed = (k / count) % 2 == 1;
+  curve.width = k < 2 * count ? 1.8 : 0.9;
+  return curve;
 }
 
 }  // namespace ballast

@@ -36,4 +36,8 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison);
 /// steps-<solver>-<tolerance>.csv, figures/*.svg and live.html there. Throws Error.
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison);
 
+/// The k-th backend's line, here and in the bench's figures: eight colours, then the same dashed,
+/// then thin.
+Curve backend_curve(size_t k, const std::string& title);
+
 }  // namespace ballast

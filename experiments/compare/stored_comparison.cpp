@@ -1,13 +1,16 @@
 #include "experiments/compare/stored_comparison.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
@@ -30,13 +33,29 @@ class ProblemNames {
   std::set<std::string> taken_;
 };
 
-std::string machine_name(size_t place) { return "M" + std::to_string(place + 1); }
-
-}  // namespace
-
+/// What makes two rows the same solve.
+using SolveIdentity = std::tuple<std::string, std::string, double, StartKind, Measure>;
 SolveIdentity identity_of(const CompareRow& row) {
   return {row.facts.content, row.solver, row.tolerance, row.start, row.measure};
 }
+
+std::string machine_name(size_t place) { return "M" + std::to_string(place + 1); }
+
+double spread_of(const RepeatedSolve& solve) {
+  return solve.fastest > 0.0 ? solve.slowest / solve.fastest : 1.0;
+}
+
+Change change_of(const ChangedSolve& solve, double least) {
+  if (solve.before == 0.0 && solve.after == 0.0) return Change::same;
+  if (solve.after == 0.0) return Change::lost;
+  if (solve.before == 0.0) return Change::gained;
+  const double ratio = solve.after / solve.before, bound = std::max(least, solve.spread);
+  return ratio > bound ? Change::slower : ratio * bound < 1.0 ? Change::faster : Change::same;
+}
+
+int rank_of(Change change) { return change == Change::lost ? 0 : change == Change::slower ? 1 : 2; }
+
+}  // namespace
 
 StoredComparison read_comparison(const fs::path& folder) {
   if (!is_folder(folder / "rows"))
@@ -102,6 +121,41 @@ size_t write_merged(const fs::path& folder, const std::vector<StoredComparison>&
   manifest.write(folder / "manifest.json");
   write_compare_page(folder, all.rows);
   return all.rows.size();
+}
+
+const char* name_of(Change change) {
+  static constexpr const char* names[] = {"same",   "faster",      "slower",    "lost",
+                                          "gained", "only before", "only after"};
+  return name_in(names, change);
+}
+
+std::vector<ChangedSolve> compare_diff(std::span<const CompareRow> before,
+                                       std::span<const CompareRow> after, double least) {
+  std::map<SolveIdentity, std::array<std::vector<const CompareRow*>, 2>> solves;
+  for (const size_t side : {0, 1})
+    for (const CompareRow& row : side == 0 ? before : after)
+      if (row.verdict != Verdict::unreadable) solves[identity_of(row)][side].push_back(&row);
+  std::vector<ChangedSolve> changes;
+  for (const auto& [identity, sides] : solves) {
+    ChangedSolve& solve =
+        changes.emplace_back(ChangedSolve{(sides[0].empty() ? sides[1] : sides[0]).front()});
+    for (const size_t side : {0, 1}) {
+      if (sides[side].empty()) continue;
+      const RepeatedSolve repeats = over_repeats(sides[side]);
+      // the median tells solved from unsolved: no time is 0
+      (side == 0 ? solve.before : solve.after) =
+          repeats.solved ? std::max(repeats.median, 1e-9) : 0.0;
+      solve.spread = std::max(solve.spread, spread_of(repeats));
+    }
+    solve.change = sides[0].empty()   ? Change::only_after
+                   : sides[1].empty() ? Change::only_before
+                                      : change_of(solve, least);
+  }
+  std::stable_sort(changes.begin(), changes.end(), [](const auto& a, const auto& b) {
+    return std::tuple(rank_of(a.change), a.row->case_name, a.row->solver) <
+           std::tuple(rank_of(b.change), b.row->case_name, b.row->solver);
+  });
+  return changes;
 }
 
 }  // namespace ballast

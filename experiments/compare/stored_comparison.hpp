@@ -3,8 +3,8 @@
 // and several of them as one.
 
 #include <filesystem>
+#include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "experiments/compare/compare_row.hpp"
@@ -19,11 +19,6 @@ struct StoredComparison {
   std::vector<CompareRow> rows;  ///< sorted by case, solver, tolerance, start, repeat
 };
 
-/// What makes two rows the same solve, whoever made them: what the problem holds, not its name;
-/// backend, tolerance, start, measure.
-using SolveIdentity = std::tuple<std::string, std::string, double, StartKind, Measure>;
-SolveIdentity identity_of(const CompareRow& row);
-
 /// Reads `folder`/manifest.json and `folder`/rows. Throws Error: there are none, a damaged row.
 StoredComparison read_comparison(const std::filesystem::path& folder);
 
@@ -33,11 +28,12 @@ struct MergedComparison {
   std::vector<CompareRow> rows;       ///< one machine after the other
 };
 
-/// Of each solve on a machine the newest comparison's rows count, all its repeats; a solve is known
-/// by its identity. A problem has the name that it has in the first comparison, with a number where
-/// another one is called so. Of several machines, a case is a problem on one of them ("M2 ·
-/// Capsules.dat"), so that a time is only ever divided by another of the same machine. Unreadable
-/// cases are left out. Throws Error: rows of two measures.
+/// Two rows are the same solve, whoever made them, by what the problem holds, not its name, by
+/// backend, tolerance, start and measure. Of each solve on a machine the newest comparison's rows
+/// count, all its repeats. A problem has the name that it has in the first comparison, with a
+/// number where another one is called so. Of several machines, a case is a problem on one of them
+/// ("M2 · Capsules.dat"), so that a time is only ever divided by another of the same machine.
+/// Unreadable cases are left out. Throws Error: rows of two measures.
 MergedComparison merged(std::vector<StoredComparison> comparisons);
 
 /// Writes results.csv, manifest.json with who made what, and compare.html of all rows; returns
@@ -45,5 +41,25 @@ MergedComparison merged(std::vector<StoredComparison> comparisons);
 /// merged().
 size_t write_merged(const std::filesystem::path& folder,
                     const std::vector<StoredComparison>& comparisons, const std::string& command);
+
+// Two comparisons of the same cases, before and after a change: what has become of each solve.
+
+enum class Change { same, faster, slower, lost, gained, only_before, only_after };
+
+const char* name_of(Change change);
+
+struct ChangedSolve {
+  const CompareRow* row;  ///< of before, or of after alone
+  Change change = Change::same;
+  double before = 0.0, after = 0.0;  ///< median of the repeats [s]; 0: not all are solved
+  double spread = 1.0;  ///< how far the repeats of one side are apart, as a factor; the larger one
+};
+
+/// Pairs rows as merged() does. A solve is faster or slower when its
+/// median changed by more than the factor `least` and by more than its own spread; with `least`
+/// infinite times are not compared. It is `lost` when it was solved in every repeat before and is
+/// not now. What matters comes first: lost, slower, then the rest by name.
+std::vector<ChangedSolve> compare_diff(std::span<const CompareRow> before,
+                                       std::span<const CompareRow> after, double least);
 
 }  // namespace ballast

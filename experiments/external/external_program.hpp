@@ -1,15 +1,58 @@
 #pragma once
-// Solvers that are programs of their own, in any language: `ballast compare --external
-// name=command`. docs/manual/external.md is what such a program must do.
+// The two files between Ballast and a solver that is a program of its own
+// (docs/manual/external.md): the problem with what is asked, and the answer.
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "experiments/external/external_files.hpp"
+#include "solvers/seam/solver.hpp"
 
 namespace ballast {
+
+/// Written into both files. Another one is refused.
+constexpr int external_protocol = 1;
+
+struct ExternalRequest {
+  FrictionProblem problem;
+  Impulses start;                ///< rows as in the problem
+  double tolerance = 0.0;        ///< on the scaled natural map, rms [m/s]; 0: not asked for
+  double fclib_tolerance = 0.0;  ///< on what Siconos prints; 0: not asked for
+  int max_iterations = 1 << 30;
+  double max_seconds = 1e30;
+  int id = 0;  ///< the answer repeats it
+};
+
+struct ExternalAnswer {
+  /// How it ended: a StopReason, or one of these two, which say no more than that.
+  static constexpr int unsupported = 5, out_of_memory = 6;
+  int status = static_cast<int>(StopReason::numerical_failure);
+  Impulses impulses;  ///< rows as in the problem
+  int iterations = 0;
+  double own_residual = 0.0;
+  double seconds = -1.0;  ///< of the method alone, on its own clock; below 0: not said
+  std::vector<HistoryPoint> history;
+
+  /// Something was solved: there are impulses.
+  bool is_solution() const { return status < static_cast<int>(StopReason::numerical_failure); }
+};
+
+/// The problem in the forms W, q and, where it has one, M, H; where only W is known, in that. Throw
+/// Error naming the file.
+void write_request(const std::filesystem::path& file, const ExternalRequest& request);
+/// In the dynamics form where the file has it; contacts without friction have three rows.
+ExternalRequest read_request(const std::filesystem::path& file);
+
+void write_answer(const std::filesystem::path& file, const ExternalRequest& request,
+                  const ExternalAnswer& answer);
+/// Throws Error: no such answer, half of one, one to another request, numbers that are none. What
+/// did not solve anything (unsupported, failed, out of memory) needs no impulses.
+ExternalAnswer read_answer(const std::filesystem::path& file, const ExternalRequest& request);
+
+// Solvers that are programs of their own, in any language: `ballast compare --external
+// name=command`. docs/manual/external.md is what such a program must do.
 
 struct ExternalCommand {
   std::string name, command;

@@ -58,9 +58,6 @@ ArrayXd peaked_shape(const ArrayXd& frequency, double critical) {
   return (frequency <= critical).select(frequency, critical * critical / frequency);
 }
 
-/// Regularised incomplete beta function I_x(a, b).
-double incomplete_beta(double a, double b, double x) { return Eigen::numext::betainc(a, b, x); }
-
 }  // namespace
 
 Statistics statistics(std::span<const double> values) {
@@ -77,18 +74,14 @@ Statistics statistics(std::span<const double> values) {
   return result;
 }
 
-double quantile_of_sorted(std::span<const double> sorted, double p) {
+double quantile(std::span<const double> values, double p) {
+  std::vector<double> sorted = finite_of(values);
   if (sorted.empty()) return not_known;
+  std::sort(sorted.begin(), sorted.end());
   // By rank: p = 0 is the least, p = 1 the largest, and linear between two that follow each other.
   const double at = p * static_cast<double>(sorted.size() - 1);
   const size_t below = static_cast<size_t>(at), above = std::min(below + 1, sorted.size() - 1);
   return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-double quantile(std::span<const double> values, double p) {
-  std::vector<double> sorted = finite_of(values);
-  std::sort(sorted.begin(), sorted.end());
-  return quantile_of_sorted(sorted, p);
 }
 
 std::vector<double> low_pass(std::span<const double> y, int width) {
@@ -163,8 +156,8 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
 
 double student_p(double t, double degrees_of_freedom) {
   if (!(degrees_of_freedom > 0.0) || std::isnan(t)) return not_known;
-  return incomplete_beta(0.5 * degrees_of_freedom, 0.5,
-                         degrees_of_freedom / (degrees_of_freedom + t * t));
+  return Eigen::numext::betainc(0.5 * degrees_of_freedom, 0.5,
+                                degrees_of_freedom / (degrees_of_freedom + t * t));
 }
 
 double student_t95(int degrees_of_freedom) {
@@ -182,8 +175,8 @@ double f_p(double ratio, double above, double below) {
   if (!(above > 0.0) || !(below > 0.0) || std::isnan(ratio)) return not_known;
   // beyond this many degrees of freedom nothing changes in the fourth digit
   const double bounded = std::min(below, 1e6);
-  return incomplete_beta(0.5 * bounded, 0.5 * above,
-                         bounded / (bounded + above * std::max(ratio, 0.0)));
+  return Eigen::numext::betainc(0.5 * bounded, 0.5 * above,
+                                bounded / (bounded + above * std::max(ratio, 0.0)));
 }
 
 std::vector<double> holm(std::span<const double> p) {

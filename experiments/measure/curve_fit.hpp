@@ -20,10 +20,8 @@ struct Statistics {
 Statistics statistics(std::span<const double> values);
 
 /// The value that the share `p` (0 <= p <= 1) of the samples does not exceed, linear between the
-/// two nearest of `sorted`, which grows: 0.5 is the median, the mean of the middle two of an even
-/// number. NaN without samples.
-double quantile_of_sorted(std::span<const double> sorted, double p);
-/// The same of values in any order.
+/// two nearest: 0.5 is the median, the mean of the middle two of an even number. NaN without
+/// samples.
 double quantile(std::span<const double> values, double p);
 
 /// Centred low-pass without phase shift: Hann-weighted mean over `width` samples to both sides

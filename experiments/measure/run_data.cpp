@@ -1,6 +1,8 @@
 #include "experiments/measure/run_data.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <nlohmann/json.hpp>
 
@@ -15,23 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One line for all columns that the record lacks, and one for each that is not finite somewhere.
+/// One line for each column that is not finite somewhere.
 void note_gaps(const std::vector<StepRecord>& steps, std::vector<std::string>& notices) {
-  std::string missing;
   for (const StepColumn& column : step_columns()) {
     std::vector<size_t> rows;
     for (size_t k = 0; k < steps.size(); ++k)
       if (!std::isfinite(steps[k].*column.value)) rows.push_back(k + 1);
-    if (rows.size() == steps.size())
-      add_to_list(missing, column.name);
-    else if (!rows.empty())
-      notices.push_back(std::string(column.name) + " is not finite in " +
-                        std::to_string(rows.size()) + " of " + std::to_string(steps.size()) +
-                        " steps, first in row " + std::to_string(rows.front()) +
-                        ": these are left out.");
+    if (!rows.empty())
+      notices.push_back(
+          printed("%s is not finite in %zu of %zu steps, first in row %zu: these are "
+                  "left out.",
+                  column.name, rows.size(), steps.size(), rows.front()));
   }
-  if (!missing.empty())
-    notices.push_back("The record has no column " + missing + ": what needs it is left out.");
 }
 
 void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
@@ -41,48 +38,49 @@ void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
                   std::to_string(k + 1));
 }
 
-void read_manifest(RunData& data) {
-  const fs::path file = data.folder / "manifest.json";
-  if (!is_there(file)) {
-    data.notices.push_back(
-        "manifest.json is missing: machine, commit and the run's summary are not known.");
-    return;
-  }
+/// Calls `read` with the file's text; why it is not to be had is said.
+void read_part(RunData& data, const char* name, const char* missing,
+               const std::function<void(const std::string& text)>& read) {
+  const fs::path file = data.folder / name;
   try {
-    data.manifest_text = read_whole_file(file);
-    auto parsed = nlohmann::ordered_json::parse(data.manifest_text, nullptr, false);
-    if (!parsed.is_object()) throw Error(broken_json);
-    data.stored_manifest = std::make_shared<const nlohmann::ordered_json>(std::move(parsed));
-  } catch (const Error& error) {
-    data.notices.push_back(std::string("manifest.json cannot be read: ") + error.what());
-  }
-}
-
-void read_scene_of_run(RunData& data) {
-  const fs::path file = data.folder / "scene.toml";
-  if (!is_there(file)) {
-    data.notices.push_back("scene.toml is missing: parameters are those of the manifest alone.");
-    return;
-  }
-  try {
-    data.scene_text = read_whole_file(file);
-    data.scene = read_scene(file);
+    if (is_there(file))
+      read(read_whole_file(file));
+    else
+      data.notices.push_back(std::string(name) + " is missing: " + missing);
   } catch (const std::exception& error) {
-    data.notices.push_back(std::string("scene.toml cannot be used: ") + error.what());
+    data.notices.push_back(std::string(name) + " cannot be used: " + error.what());
   }
 }
 
-/// What the scene alone knows of the solver, the bodies, the box and the deposit.
+void read_manifest(RunData& data, const std::string& text) {
+  data.manifest_text = text;
+  auto parsed = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (!parsed.is_object()) throw Error(broken_json);
+  data.stored_manifest = std::make_shared<const nlohmann::ordered_json>(std::move(parsed));
+}
+
+/// What the scene knows: loads in weights of the grains, the wall's mass in theirs.
 void add_settings(const Scene& scene, RunFacts& facts) {
   facts.solver = scene.solver.name;
   facts.iterations_most = scene.solver.max_iterations;
   facts.friction = scene.friction;
+  facts.step = scene.step;
+  if (scene.solver.tolerance > 0.0) facts.tolerance = scene.solver.tolerance;
+  facts.gravity = scene.gravity.norm();
+  facts.has_packing = scene.grains.has_value();
+  facts.has_wall = facts.has_packing || std::ranges::any_of(scene.walls, [](const WallSpec& wall) {
+                     return wall.motion == WallMotion::driven;
+                   });
   for (const BodySpec& body : scene.bodies)
     if (body.shape)
       facts.smallest_size = std::fmin(facts.smallest_size, body.shape->circumradius());
   if (!scene.grains) return;
   facts.seed = static_cast<int>(scene.grains->seed);
-  if (!std::isfinite(facts.grains)) facts.grains = scene.grains->count;
+  facts.grains = scene.grains->count;
+  facts.frequency = scene.drive.frequency;
+  facts.f_max = scene.drive.f_max_over_weight;
+  facts.f_min = scene.drive.f_min_over_weight;
+  facts.wall_mass = scene.drive.wall_mass_over_grains;
   facts.length = scene.box.length;
   facts.lid_raise = scene.drive.lid_raise;
   const double part = scene.grains->size_convention == SizeConvention::radius ? 1.0 : 0.5;
@@ -94,40 +92,59 @@ void add_settings(const Scene& scene, RunFacts& facts) {
   facts.lid_pressure = scene.deposit.lid_pressure_weight;
 }
 
+bool is_any_nonzero(const std::vector<StepRecord>& steps, double StepRecord::*value) {
+  return std::ranges::any_of(
+      steps, [&](const StepRecord& s) { return std::isfinite(s.*value) && s.*value != 0.0; });
+}
+
+/// NaN when it isn't there or no number.
+double summary_number(const RunData& data, const std::string& name) {
+  const nlohmann::ordered_json::json_pointer place("/summary/" + name);
+  const bool is_there = data.manifest().contains(place) && data.manifest()[place].is_number();
+  return is_there ? data.manifest()[place].get<double>() : not_known;
+}
+
+/// The manifest's summary was written by the run itself: it comes first, then the scene; what both
+/// lack is found in the record.
 RunFacts facts_of(const RunData& data) {
-  // the manifest's summary was written by the run itself: it comes first
   RunFacts facts;
-  const auto summary = [&](const char* name) { return data.summary_number(name); };
-  facts.step = summary("step_s");
-  facts.velocity_scale = summary("velocity_scale_m_s");
-  facts.frequency = summary("frequency_Hz");
-  facts.f_max = summary("f_max_N");
-  facts.f_min = summary("f_min_N");
-  facts.grain_mass = summary("grain_mass_kg");
-  facts.wall_mass = summary("wall_mass_kg");
-  facts.solid_fraction_initial = summary("solid_fraction_initial");
-  facts.gravity = summary("weight_N") / facts.grain_mass;
-  facts.grains = summary("grains");
-  facts.height = summary("packing_top_m");
-  if (!data.scene) return facts;
-  const Scene& scene = *data.scene;
-  add_settings(scene, facts);
-  if (!std::isfinite(facts.step)) facts.step = scene.step;
-  if (scene.solver.tolerance > 0.0) facts.tolerance = scene.solver.tolerance;
-  facts.gravity = scene.gravity.norm();
-  facts.has_packing = scene.grains.has_value();
-  bool has_driven = scene.grains.has_value();
-  for (const WallSpec& wall : scene.walls)
-    has_driven = has_driven || wall.motion == WallMotion::driven;
-  facts.has_wall = has_driven;
-  if (!scene.grains) return facts;
-  // the rest follows from the scene where the mass of the grains is known
+  if (data.scene) add_settings(*data.scene, facts);
+  const auto take = [&](double& value, const char* name) {
+    if (const double found = summary_number(data, name); std::isfinite(found)) value = found;
+  };
+  take(facts.step, "step_s");
+  take(facts.grain_mass, "grain_mass_kg");
+  take(facts.grains, "grains");
+  take(facts.height, "packing_top_m");
+  take(facts.solid_fraction_initial, "solid_fraction_initial");
+  if (!data.scene) facts.gravity = summary_number(data, "weight_N") / facts.grain_mass;
+  // in units of the grains' weight and mass the scene alone has them
   const double weight = facts.grain_mass * facts.gravity;
-  if (!std::isfinite(facts.frequency)) facts.frequency = scene.drive.frequency;
-  if (!std::isfinite(facts.f_max)) facts.f_max = scene.drive.f_max_over_weight * weight;
-  if (!std::isfinite(facts.f_min)) facts.f_min = scene.drive.f_min_over_weight * weight;
-  if (!std::isfinite(facts.wall_mass))
-    facts.wall_mass = scene.drive.wall_mass_over_grains * facts.grain_mass;
+  facts.f_max *= weight;
+  facts.f_min *= weight;
+  facts.wall_mass *= facts.grain_mass;
+  take(facts.frequency, "frequency_Hz");
+  take(facts.f_max, "f_max_N");
+  take(facts.wall_mass, "wall_mass_kg");
+  const auto fill = [](double& value, double found) {
+    if (!std::isfinite(value)) value = found;
+  };
+  const std::vector<StepRecord>& steps = data.steps;
+  if (steps.size() > 1)
+    fill(facts.step,
+         (steps.back().time - steps.front().time) / static_cast<double>(steps.size() - 1));
+  facts.velocity_scale = facts.gravity == 0.0 ? 1.0 : facts.gravity * facts.step;
+  take(facts.velocity_scale, "velocity_scale_m_s");
+  if (!data.scene) {
+    facts.has_wall = is_any_nonzero(steps, &StepRecord::load);
+    facts.has_packing = is_any_nonzero(steps, &StepRecord::solid_fraction);
+  }
+  if (facts.has_wall) {
+    const Statistics load = statistics(record_column(steps, &StepRecord::load));
+    fill(facts.f_max, load.max);
+    fill(facts.f_min, load.min);
+  }
+  if (facts.has_packing) fill(facts.solid_fraction_initial, steps.front().solid_fraction);
   return facts;
 }
 
@@ -138,13 +155,6 @@ const nlohmann::ordered_json& RunData::manifest() const {
   return stored_manifest ? *stored_manifest : none;
 }
 
-double RunData::summary_number(const std::string& name) const {
-  const auto summary = manifest().find("summary");
-  if (summary == manifest().end() || !summary->is_object()) return not_known;
-  const auto value = summary->find(name);
-  return value != summary->end() && value->is_number() ? value->get<double>() : not_known;
-}
-
 RunData read_run_data(const fs::path& folder) {
   RunData data;
   data.folder = folder;
@@ -153,8 +163,13 @@ RunData read_run_data(const fs::path& folder) {
   if (data.steps.empty()) throw Error(folder.string() + ": the record holds no step");
   check_times(folder, data.steps);
   note_gaps(data.steps, data.notices);
-  read_manifest(data);
-  read_scene_of_run(data);
+  read_part(data, "manifest.json", "machine, commit and the run's summary are not known.",
+            [&](const std::string& text) { read_manifest(data, text); });
+  read_part(data, "scene.toml", "parameters are those of the manifest alone.",
+            [&](const std::string& text) {
+              data.scene_text = text;
+              data.scene = read_scene(folder / "scene.toml");
+            });
   data.facts = facts_of(data);
   return data;
 }

@@ -28,8 +28,6 @@ struct RunData {
 
   /// An object; empty when there is none.
   const nlohmann::ordered_json& manifest() const;
-  /// A number of the manifest's summary; NaN when it isn't there or no number.
-  double summary_number(const std::string& name) const;
 };
 
 /// record.h5, or the logs of a run still going. Throws Error naming the file when there is no

@@ -3,26 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "platform/text.hpp"
+
 namespace ballast {
 namespace {
 
-bool is_any_nonzero(std::span<const StepRecord> steps, double StepRecord::*value) {
-  return std::any_of(steps.begin(), steps.end(), [&](const StepRecord& s) {
-    return std::isfinite(s.*value) && s.*value != 0.0;
-  });
-}
+bool is_between(double x, double lo, double hi) { return x >= lo && x <= hi; }
 
 void summarise_cost(std::span<const StepRecord> steps, RunSummary& summary) {
-  for (const StepColumn& phase : step_phases()) summary.cost.push_back({phase.phase, phase.value});
-  for (PhaseCost& phase : summary.cost) {
-    phase.ms_per_step = 1e3 * statistics(record_column(steps, phase.seconds)).mean;
-    // phases that the record lacks are left out of the sum
-    if (std::isfinite(phase.ms_per_step))
-      summary.ms_per_step =
-          phase.ms_per_step + (std::isnan(summary.ms_per_step) ? 0.0 : summary.ms_per_step);
+  summary.ms_per_step = 0.0;
+  for (const StepColumn& phase : step_phases()) {
+    summary.cost.push_back({phase.phase, 1e3 * statistics(record_column(steps, phase.value)).mean});
+    summary.ms_per_step += summary.cost.back().ms_per_step;
   }
-  if (summary.ms_per_step > 0.0)
-    for (PhaseCost& phase : summary.cost) phase.share = phase.ms_per_step / summary.ms_per_step;
 }
 
 void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) {
@@ -31,11 +24,8 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
   summary.error_max = statistics(record_column(steps, &StepRecord::error_max));
   summary.error_mean_relative = summary.error_rms.mean / scale;
   summary.error_max_relative = summary.error_rms.max / scale;
-  // A record without the column `solved` has the error alone to judge by.
-  const double asked = summary.facts.tolerance * (std::isfinite(scale) ? scale : 1.0);
-  for (const StepRecord& step : steps)
-    if (asked > 0.0 && (std::isnan(step.solved) ? !(step.error_rms <= asked) : step.solved == 0.0))
-      ++summary.missed;
+  if (summary.facts.tolerance > 0.0)
+    summary.missed = std::ranges::count_if(steps, [](const auto& s) { return !(s.solved > 0.0); });
   // the deepest overlap and when it was
   summary.penetration_mean = statistics(record_column(steps, &StepRecord::penetration_mean)).mean;
   for (const StepRecord& step : steps)
@@ -91,13 +81,6 @@ double error_after_transient(std::span<const StepRecord> steps, const RunFacts& 
   return statistics(errors).mean / facts.velocity_scale;
 }
 
-/// Last sample at or before t (a quarter of a step for rounding); -1 when t is before the first.
-long sample_at(std::span<const StepRecord> steps, double t, double h) {
-  const auto later = std::find_if(steps.begin(), steps.end(),
-                                  [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
-  return static_cast<long>(later - steps.begin()) - 1;
-}
-
 /// rho at the end of a period minus rho at its begin: both at the same phase of the load, so that
 /// the swing within the period drops out. NaN when the begin is not in the record.
 double gain_of(std::span<const StepRecord> steps, const WallPeriod& period) {
@@ -115,11 +98,9 @@ double compaction_rate(std::span<const StepRecord> steps, double frequency, doub
   const double a = std::ceil((window.begin - slack) * frequency) / frequency,
                b = std::floor((end + slack) * frequency) / frequency;
   if (!(b > a + slack)) return not_known;
-  const long first = sample_at(steps, a, step), last = sample_at(steps, b, step);
-  if (first < 0 || last <= first) return not_known;
-  return (steps[static_cast<size_t>(last)].solid_fraction -
-          steps[static_cast<size_t>(first)].solid_fraction) /
-         (reference * (b - a));
+  const size_t first = first_after(steps, a, step), last = first_after(steps, b, step);
+  if (first == 0 || last <= first) return not_known;
+  return (steps[last - 1].solid_fraction - steps[first - 1].solid_fraction) / (reference * (b - a));
 }
 
 Compaction compaction_of(std::span<const StepRecord> steps, std::span<const WallPeriod> periods,
@@ -151,10 +132,8 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
   summary.jammed = jammed_state(steps, summary.wall, facts.f_min, facts.f_max);
   summary.contraction = first_contraction(steps, facts.frequency);
   const std::vector<WallPeriod>& periods = summary.wall.periods;
-  summary.periods = static_cast<long>(periods.size());
   summary.rise = over_periods(periods, &WallPeriod::rise);
   summary.net = over_periods(periods, &WallPeriod::net);
-  summary.net_contraction = -summary.net.mean;
   summary.speed_in = over_periods(periods, &WallPeriod::speed_in);
   summary.speed_out = over_periods(periods, &WallPeriod::speed_out);
   summary.prefactor = summary.rise.mean / eq3_displacement(facts);
@@ -163,35 +142,141 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
   summary.error_counted = error_after_transient(steps, facts);
 }
 
+bool overlaps(const RunSummary& run) {
+  return run.penetration_max > visible_overlap * run.facts.smallest_size;
+}
+
+bool gains(const RunSummary& run) { return run.energy.gained > visible_gain * run.energy.moved; }
+
+/// Errors are told in g h, or in m/s without gravity.
+const char* error_unit(const RunSummary& run) {
+  const double scale = run.facts.velocity_scale;
+  return std::isfinite(scale) && scale != 1.0 ? "g h" : "m/s";
+}
+
+std::string length_text(double metres) {
+  const bool is_small = metres < 1e-3;
+  const double value = (is_small ? 1e6 : 1e3) * metres;
+  // from 100 on %g would write a power of ten
+  return printed(value >= 99.5 ? "%.0f %s" : "%.2g %s", value, is_small ? "µm" : "mm");
+}
+
+std::string steps_words(const RunSummary& run) {
+  const double scale = std::isfinite(run.facts.velocity_scale) ? run.facts.velocity_scale : 1.0;
+  const char* unit = error_unit(run);
+  std::string text = printed(
+      "%ld of %ld steps did not reach the tolerance of %.3g %s: their error is %.2g %s in "
+      "the mean of all steps, %.2g in the worst.",
+      run.missed, run.steps, run.facts.tolerance, unit, run.error_rms.mean / scale, unit,
+      run.error_rms.max / scale);
+  text += printed(" More accurate and slower: --set solver.max_iterations=%d",
+                  5 * std::max(1, static_cast<int>(run.facts.iterations_most)));
+  if (run.facts.solver != "auto") text += ", or --set solver.name=auto";
+  return text + ".";
+}
+
+std::string overlap_words(const RunSummary& run) {
+  return "The deepest overlap is " + length_text(run.penetration_max) +
+         printed(" at t = %.3g s, %.2g %% of the smallest body's radius. ",
+                 run.penetration_max_time, 100.0 * run.penetration_max / run.facts.smallest_size) +
+         (run.missed > 0 ? "A smaller error of the steps mends it, or a smaller scene.step."
+                         : "A smaller scene.step mends it.");
+}
+
+std::string energy_words(const RunSummary& run) {
+  return printed(
+             "Energy +%.3g J: contacts gave it to the bodies, which no law of contact does "
+             "(%.2g %% of the energy that moved). ",
+             run.energy.gained, 100.0 * run.energy.gained / run.energy.moved) +
+         (run.facts.solver != "auto" ? "--set solver.name=auto mends it, or more iterations."
+                                     : "More solver.max_iterations mend it.");
+}
+
 }  // namespace
+
+std::vector<Displacement> period_displacements(std::span<const MotionState> frames,
+                                               std::span<const WallPeriod> periods, double h,
+                                               size_t grains) {
+  const auto frame_at = [&](double time) {
+    return std::find_if(frames.begin(), frames.end(), [&](const MotionState& frame) {
+      return std::abs(frame.time - time) < 0.6 * h;
+    });
+  };
+  std::vector<Displacement> all;
+  for (const WallPeriod& period : periods) {
+    const auto begin = frame_at(period.begin), end = frame_at(period.end);
+    if (begin == frames.end() || end == frames.end()) continue;
+    for (size_t b = 0; b < grains; ++b) {
+      const Vec3 &from = begin->pose[b].position, &to = end->pose[b].position;
+      all.push_back({0.5 * (from + to), to - from});
+    }
+  }
+  return all;
+}
+
+double Roll::roundness() const {
+  double weakest = not_known, strongest = 0.0;
+  for (const double side : along) {
+    const double with = circulation < 0.0 ? -side : side;
+    weakest = std::fmin(weakest, with);
+    strongest = std::max(strongest, std::abs(side));
+  }
+  return std::isnan(circulation) || !(strongest > 0.0) ? not_known : weakest / strongest;
+}
+
+Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& r, double reach) {
+  std::array<double, 4> sum{}, count{};
+  const auto add = [&](size_t side, bool is_near, double along) {
+    if (!is_near) return;
+    sum[side] += along;
+    count[side] += 1.0;
+  };
+  // a grain near a corner counts for both sides
+  for (const Displacement& d : displacements) {
+    const double x = d.place.x(), z = d.place.z();
+    const bool in_x = is_between(x, r.x_lo, r.x_hi), in_z = is_between(z, r.z_lo, r.z_hi);
+    add(0, in_x && std::abs(z - r.z_hi) <= reach, d.move.x());
+    add(1, in_z && std::abs(x - r.x_hi) <= reach, -d.move.z());
+    add(2, in_x && std::abs(z - r.z_lo) <= reach, -d.move.x());
+    add(3, in_z && std::abs(x - r.x_lo) <= reach, d.move.z());
+  }
+  Roll roll;
+  if (*std::min_element(count.begin(), count.end()) == 0.0) return roll;
+  for (size_t side = 0; side < 4; ++side) roll.along[side] = sum[side] / count[side];
+  roll.circulation = (roll.along[0] + roll.along[2]) * (r.x_hi - r.x_lo) +
+                     (roll.along[1] + roll.along[3]) * (r.z_hi - r.z_lo);
+  return roll;
+}
+
+std::vector<Displacement> cell_means(std::span<const Displacement> displacements,
+                                     const XzRectangle& r, int columns, int rows) {
+  const size_t cells = static_cast<size_t>(columns) * static_cast<size_t>(rows);
+  std::vector<Vec3> sum(cells, Vec3::Zero());
+  std::vector<double> count(cells, 0.0);
+  const double width = (r.x_hi - r.x_lo) / columns, height = (r.z_hi - r.z_lo) / rows;
+  for (const Displacement& d : displacements) {
+    const double column = std::floor((d.place.x() - r.x_lo) / width),
+                 row = std::floor((d.place.z() - r.z_lo) / height);
+    if (!is_between(column, 0, columns - 1) || !is_between(row, 0, rows - 1)) continue;
+    const size_t cell = static_cast<size_t>(row * columns + column);
+    sum[cell] += d.move;
+    count[cell] += 1.0;
+  }
+  std::vector<Displacement> means;
+  for (size_t cell = 0; cell < cells; ++cell) {
+    if (count[cell] == 0.0) continue;
+    const size_t in_row = static_cast<size_t>(columns), below = cell / in_row;
+    const double column = static_cast<double>(cell % in_row), row = static_cast<double>(below);
+    means.push_back({Vec3(r.x_lo + (column + 0.5) * width, 0.0, r.z_lo + (row + 0.5) * height),
+                     sum[cell] / count[cell]});
+  }
+  return means;
+}
 
 double eq3_displacement(const RunFacts& facts) {
   // Eq. 3 of the paper: m / (m + m_w) (m g / f_max) g / nu^2, m of all grains, m_w of the wall.
   const double m = facts.grain_mass, g = facts.gravity;
   return m / (m + facts.wall_mass) * m * g / facts.f_max * g / (facts.frequency * facts.frequency);
-}
-
-RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps) {
-  // what is given stays, whatever the record says
-  const auto fill = [](double& value, double found) {
-    if (!std::isfinite(value)) value = found;
-  };
-  if (steps.size() > 1)
-    fill(facts.step,
-         (steps.back().time - steps.front().time) / static_cast<double>(steps.size() - 1));
-  fill(facts.velocity_scale, facts.gravity > 0.0    ? facts.gravity * facts.step
-                             : facts.gravity == 0.0 ? 1.0
-                                                    : not_known);
-  if (!facts.has_wall) facts.has_wall = is_any_nonzero(steps, &StepRecord::load);
-  if (!facts.has_packing) facts.has_packing = is_any_nonzero(steps, &StepRecord::solid_fraction);
-  if (*facts.has_wall) {
-    const Statistics load = statistics(record_column(steps, &StepRecord::load));
-    fill(facts.f_max, load.max);
-    fill(facts.f_min, load.min);
-  }
-  if (*facts.has_packing && !steps.empty())
-    fill(facts.solid_fraction_initial, steps.front().solid_fraction);
-  return facts;
 }
 
 Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summary) {
@@ -203,13 +288,13 @@ Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summ
                  {0.25 * length, 0.75 * length, 0.25 * top, 0.75 * top}, facts.largest_size);
 }
 
-RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given,
+RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts,
                      const WallSettings& settings) {
   RunSummary summary;
-  summary.facts = complete_facts(given, steps);
+  summary.facts = facts;
   summary.steps = static_cast<long>(steps.size());
-  summarise_cost(steps, summary);
   if (steps.empty()) return summary;
+  summarise_cost(steps, summary);
   summary.duration = steps.back().time;
   // what every run has: effort, errors, overlaps, energy
   summary.iterations = statistics(record_column(steps, &StepRecord::iterations));
@@ -218,11 +303,25 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& given,
   summarise_accuracy(steps, summary);
   summary.energy = energy_balance(steps);
   // what a driven wall and a packing have besides
-  if (*summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
+  if (summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
     summarise_wall(steps, settings, summary);
-  if (*summary.facts.has_packing)
+  if (summary.facts.has_packing)
     summary.compaction = compaction_of(steps, summary.wall.periods, summary.facts);
   return summary;
+}
+
+bool is_clean(const RunSummary& run) { return run.missed == 0 && !overlaps(run) && !gains(run); }
+
+std::vector<std::string> trust_words(const RunSummary& run) {
+  std::vector<std::string> words;
+  if (run.missed > 0) words.push_back(steps_words(run));
+  if (overlaps(run)) words.push_back(overlap_words(run));
+  if (gains(run)) words.push_back(energy_words(run));
+  if (words.empty() && run.facts.tolerance > 0.0)
+    words.push_back(printed("Every step reached the tolerance of %.3g %s; the deepest overlap is ",
+                            run.facts.tolerance, error_unit(run)) +
+                    length_text(run.penetration_max) + ".");
+  return words;
 }
 
 }  // namespace ballast

@@ -23,17 +23,63 @@
 // Delta rho_1 is a mean of differences, not the slope of a line through the periods' means: it
 // needs one period where a line needs two, and both its ends are at one phase of the load.
 
-#include <optional>
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "experiments/measure/roll.hpp"
+#include "experiments/measure/curve_fit.hpp"
+#include "experiments/measure/wall_cycles.hpp"
+#include "experiments/record/record_file.hpp"
 
 namespace ballast {
 
-/// What the record's rows don't say. Whatever is NaN is either derived by complete_facts() or the
-/// numbers that need it stay NaN.
+// Do the grains roll? Their displacements over whole periods of the load (stroboscopic: the same
+// phase, so that what goes to and fro drops out), and how these go around a loop in the xz plane
+// (paper, Fig. 6).
+//
+// A mean vorticity cannot tell a roll from shear: both have a circulation. A roll goes round: along
+// all four sides of a rectangle the displacement has the same sense.
+
+/// What one grain has done.
+struct Displacement {
+  Vec3 place;  ///< of its centre, at the middle of its way [m]
+  Vec3 move;   ///< [m]
+};
+/// Of the first `grains` bodies over the periods that count, where a frame is stored at both ends
+/// (to a step of `h` [s]).
+std::vector<Displacement> period_displacements(std::span<const MotionState> frames,
+                                               std::span<const WallPeriod> periods, double h,
+                                               size_t grains);
+
+/// A rectangle in the xz plane; y is averaged over.
+struct XzRectangle {
+  double x_lo, x_hi, z_lo, z_hi;  ///< [m]
+};
+
+/// The sense of the motion along the sides of a rectangle, positive clockwise with x to the right
+/// (the driven wall) and z upwards: right along the top, down the right side, left along the
+/// bottom, up the left side.
+struct Roll {
+  /// Mean displacement along top, right, bottom, left [m].
+  std::array<double, 4> along{not_known, not_known, not_known, not_known};
+  double circulation = not_known;  ///< its integral around the rectangle [m^2]
+  /// The weakest side over the strongest, in the sense of the circulation: 1 all sides alike,
+  /// negative where a side goes against it and the grains do not go round.
+  double roundness() const;
+};
+/// Grains within `reach` of a side count for it: about a grain's size [m]. A side without a grain
+/// makes all of it not known.
+Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& rectangle,
+             double reach);
+
+/// Mean displacement on a grid over the rectangle, for a picture: places are the middles of the
+/// cells, row by row from the lowest; cells without grains are left out.
+std::vector<Displacement> cell_means(std::span<const Displacement> displacements,
+                                     const XzRectangle& rectangle, int columns, int rows);
+
+/// What the record's rows don't say (read_run_data finds it). The numbers that need what is NaN
+/// stay NaN.
 struct RunFacts {
   double step = not_known;            ///< h [s]
   double velocity_scale = not_known;  ///< of errors [m/s]: g h, or 1 m/s without gravity
@@ -45,7 +91,7 @@ struct RunFacts {
   double f_max = not_known, f_min = not_known;           ///< of the load [N]
   double grain_mass = not_known, wall_mass = not_known;  ///< m (all grains), m_w [kg]
   double solid_fraction_initial = not_known;             ///< before the drive
-  std::optional<bool> has_wall, has_packing;             ///< a driven wall; a solid fraction
+  bool has_wall = false, has_packing = false;            ///< a driven wall; a solid fraction
   // what was set besides, as the scene has it
   int seed = 0;  ///< of the grains: the sample
   std::string solver;
@@ -63,11 +109,6 @@ struct RunFacts {
 /// X, the right side of Eq. 3 without C, m the mass of all grains [m].
 double eq3_displacement(const RunFacts& facts);
 
-/// Fills in from the record what is missing: h from the times, f_max and f_min from the load, the
-/// initial solid fraction from the first row, has_wall and has_packing from columns that are not
-/// zero. velocity_scale = gravity * step when both are known.
-RunFacts complete_facts(RunFacts facts, std::span<const StepRecord> steps);
-
 /// What is asked of a run (docs: measures of the project), and what the paper says.
 namespace target {
 inline constexpr double penetration_max = 0.25e-3;  ///< [m]
@@ -84,9 +125,7 @@ inline constexpr double prefactor = 0.01;          ///< C of Eq. 3
 /// Wall clock by phase of the step.
 struct PhaseCost {
   const char* name;
-  double StepRecord::*seconds;
-  double ms_per_step = not_known;
-  double share = not_known;  ///< of the sum of all phases
+  double ms_per_step;
 };
 
 /// Sums over the run [J].
@@ -147,12 +186,10 @@ struct RunSummary {
 
   // with a driven wall
   WallCycles wall;
-  long periods = 0;  ///< that count
   JammedState jammed;
   FirstContraction contraction;
   // over the periods that count
   Statistics rise, net, speed_in, speed_out;  ///< as in WallPeriod
-  double net_contraction = not_known;         ///< of a period, inwards: minus the mean of `net` [m]
   double prefactor = not_known;               ///< C of Eq. 3, m the mass of all grains
   ForceLaw law;                               ///< f_g(xi) and f_g(f) while the wall moves
 
@@ -167,5 +204,19 @@ Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summ
 
 RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts,
                      const WallSettings& settings = {});
+
+// What a run's user must be told without asking: steps that missed their tolerance, overlaps that
+// can be seen, energy that no law of contact gives. And what to do about each.
+
+/// An overlap of this part of the smallest radius, and gained energy of this part of what moved,
+/// can be seen.
+inline constexpr double visible_overlap = 0.01, visible_gain = 0.01;
+
+/// Nothing has to be said.
+bool is_clean(const RunSummary& run);
+
+/// One sentence on each thing, the finding first and what to do about it behind; a single one when
+/// there is nothing to do.
+std::vector<std::string> trust_words(const RunSummary& run);
 
 }  // namespace ballast

@@ -8,13 +8,6 @@
 namespace ballast {
 namespace {
 
-/// First sample later than t, with a quarter of a step for the rounding of multiples of h.
-size_t first_after(std::span<const StepRecord> steps, double t, double h) {
-  const auto later = std::find_if(steps.begin(), steps.end(),
-                                  [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
-  return static_cast<size_t>(later - steps.begin());
-}
-
 /// Largest rise above the running minimum, and where the wall comes back to. NaN samples are passed
 /// over.
 void find_stroke(std::span<const StepRecord> steps, WallPeriod& period) {
@@ -131,6 +124,12 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
 }  // namespace
 
 double transient_of(double frequency) { return std::max(0.3, 1.0 / frequency); }
+
+size_t first_after(std::span<const StepRecord> steps, double t, double h) {
+  const auto later = std::find_if(steps.begin(), steps.end(),
+                                  [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
+  return static_cast<size_t>(later - steps.begin());
+}
 
 WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double h,
                        const WallSettings& settings) {

@@ -46,6 +46,9 @@ enum class WallPhase : unsigned char { none, active, passive, jammed };
 /// What is cut off at the start for a load of frequency nu [Hz]: 0.3 s, at least one period [s].
 double transient_of(double frequency);
 
+/// First sample later than t, with a quarter of a step for the rounding of multiples of h.
+size_t first_after(std::span<const StepRecord> steps, double t, double h);
+
 struct WallSettings {
   double smoothing = 4e-3;     ///< width of the low-pass on f_g and v [s], but at most 1/20 period
   double jammed_speed = 0.02;  ///< of v_peak

@@ -19,38 +19,35 @@ constexpr StageColumn stage_columns[] = {
     {"Δx~max~ (mm)", 1e3, rise_of},
     {"C", 1.0, prefactor_of},
     {"C by the theory", 1.0, theory_of},
-    {"F/(m g)", 1.0, push_of},
+    {"F/(m g)", 1.0, [](const RunRow& run) { return run["push_over_weight"]; }},
     {"v~max~ (mm/s)", 1e3, speed_of},
-    {"net a period (mm)", 1e3, [](const RunSummary& run) { return run.net_contraction; }},
-    {"ρ before", 1.0, [](const RunSummary& run) { return run.compaction.initial; }},
+    {"net a period (mm)", 1e3, [](const RunRow& run) { return run["net"]; }},
+    {"ρ before", 1.0, density_of},
     {"Δρ~1~ (10^−4^)", 1e4, gain_of},
     {"η (10^−3^/s)", 1e3, rate_of},
     {"η, 0.4–1 s", 1e3, common_rate_of},
-    {"t~90~ (s)", 1.0, [](const RunSummary& run) { return run.contraction.time90; }},
-    {"error (g·h)", 1.0, [](const RunSummary& run) { return run.error_counted; }}};
+    {"t~90~ (s)", 1.0, time90_of},
+    {"error (g·h)", 1.0, [](const RunRow& run) { return run["error"]; }}};
 
 bool has_word(const RunRow& row, const char* word) {
   return row.name.find(word) != std::string::npos;
 }
 bool is_deposit(const RunRow& row, bool is_pressed, double friction) {
-  return (row.run.facts.lid_pressure > 0.0) == is_pressed &&
-         row.run.facts.deposit_friction == friction;
+  return (row["lid_pressure"] > 0.0) == is_pressed && row["deposit_friction"] == friction;
 }
 /// Rows of 23 November 2026 and before: two hundred iterations a step, whatever the error.
-bool is_of_200(const RunRow& row) { return row.run.facts.iterations_most == 200.0; }
+bool is_of_200(const RunRow& row) { return row["iterations_most"] == 200.0; }
 bool is_load(const RunRow& row, double force, bool is_half) {
-  return std::abs(force_of(row.run) / force - 1.0) < 1e-6 &&
-         (row.run.facts.largest_size < 0.04) == is_half;
+  return std::abs(force_of(row) / force - 1.0) < 1e-6 && (row["largest_size"] < 0.04) == is_half;
 }
 bool is_of_size(const RunRow& row, const char* word) {
   return row.stage == "sizes"
              ? has_word(row, word)
-             : is_deposit(row, true, 0.4) && frequency_of(row.run) == 5.0 && is_of_200(row);
+             : is_deposit(row, true, 0.4) && frequency_of(row) == 5.0 && is_of_200(row);
 }
 bool is_usual(const RunRow& row) {
-  const RunFacts& facts = row.run.facts;
-  return facts.friction == 0.4 && facts.lid_raise == 0.01 && facts.largest_size == 0.05 &&
-         (facts.solver == "nesterov_pgs" || facts.solver == "nncg");
+  return row["friction"] == 0.4 && row["lid_raise"] == 0.01 && row["largest_size"] == 0.05 &&
+         (row.solver == "nesterov_pgs" || row.solver == "nncg");
 }
 
 struct CaseTable {
@@ -69,7 +66,7 @@ std::vector<CaseTable> solution_tables() {
   // one of the older rows of deposits stands under the stage that asked for it first
   const auto is_old_plain = [](Row r) {
     return is_deposit(r, true, 0.4) && is_of_200(r) &&
-           (r.stage == "deposits" || frequency_of(r.run) == 10.0);
+           (r.stage == "deposits" || frequency_of(r) == 10.0);
   };
   const std::vector<Selection> accuracies{
       {"error ≤ 1e-2 g·h", {"tight"}},
@@ -78,8 +75,8 @@ std::vector<CaseTable> solution_tables() {
       {"200 iterations a step", {"deposits", "looseness"}, is_old_plain},
       {"the campaign’s own", {"frequency"}}};
   const std::vector<Selection> contact_laws{
-      {"Coulomb’s law", {"laws"}, [](Row r) { return r.run.facts.solver != "sap"; }},
-      {"its convex relaxation", {"laws"}, [](Row r) { return r.run.facts.solver == "sap"; }}};
+      {"Coulomb’s law", {"laws"}, [](Row r) { return r.solver != "sap"; }},
+      {"its convex relaxation", {"laws"}, [](Row r) { return r.solver == "sap"; }}};
   return {{"fig9", frequency_of, " Hz", {{"ν", {"frequency", "slowest"}}}},
           {"tight", frequency_of, " Hz", accuracies, frequency_of, true},
           {"laws", frequency_of, " Hz", contact_laws, nullptr, true},
@@ -90,7 +87,7 @@ std::vector<CaseTable> solution_tables() {
 std::vector<CaseTable> packing_tables() {
   const auto is_plain = [](Row r) {
     return is_deposit(r, true, 0.4) &&
-           (r.stage == "deposits" || (is_of_200(r) && frequency_of(r.run) == 10.0));
+           (r.stage == "deposits" || (is_of_200(r) && frequency_of(r) == 10.0));
   };
   const auto is_usual_shape = [](Row r) {
     return r.stage == "shapes" ? has_word(r, "base") : is_deposit(r, true, 0.4) && is_of_200(r);
@@ -111,14 +108,11 @@ std::vector<CaseTable> packing_tables() {
 
 /// Other boxes and other loads.
 std::vector<CaseTable> box_tables() {
-  const RunMeasure length = [](const RunSummary& run) { return run.facts.length; };
-  const RunMeasure aspect = [](const RunSummary& run) {
-    return run.facts.length / run.facts.height;
-  };
-  const RunMeasure side = [](const RunSummary& run) { return std::cbrt(run.facts.grains); };
+  const RunMeasure length = [](const RunRow& run) { return run["length"]; };
+  const RunMeasure side = [](const RunRow& run) { return std::cbrt(grains_of(run)); };
   const std::vector<Selection> lengths{
-      {"5 Hz", {"box"}, [](Row r) { return frequency_of(r.run) == 5.0; }},
-      {"20 Hz", {"box"}, [](Row r) { return frequency_of(r.run) == 20.0; }}};
+      {"5 Hz", {"box"}, [](Row r) { return frequency_of(r) == 5.0; }},
+      {"20 Hz", {"box"}, [](Row r) { return frequency_of(r) == 20.0; }}};
   const std::vector<Selection> loads{
       {"f_max = 6 m g", {"loads"}, [](Row r) { return is_load(r, 6.0, false); }},
       {"f_max = 12 m g", {"loads"}, [](Row r) { return is_load(r, 12.0, false); }},
@@ -128,18 +122,18 @@ std::vector<CaseTable> box_tables() {
   const std::vector<Selection> sizes{
       {"similar boxes, H/L fixed", {"sizes", "deposits"}, is_similar},
       {"wider boxes, H/d fixed", {"sizes", "deposits"}, is_wider}};
-  return {{"box", length, " m", lengths, aspect},
+  return {{"box", length, " m", lengths, aspect_of},
           {"loads", frequency_of, " Hz", loads},
           {"sizes", grains_of, "", sizes, side}};
 }
 
 /// What has to be chosen, each alone.
 std::vector<CaseTable> sensitivity_tables() {
-  const RunMeasure step = [](const RunSummary& run) { return run.facts.step; };
-  const RunMeasure friction = [](const RunSummary& run) { return run.facts.friction; };
-  const RunMeasure gap = [](const RunSummary& run) { return run.facts.lid_raise; };
-  const auto is_other_friction = [](Row r) { return r.run.facts.friction != 0.4; };
-  const auto is_other_gap = [](Row r) { return r.run.facts.lid_raise != 0.01; };
+  const RunMeasure step = [](const RunRow& run) { return run["step"]; };
+  const RunMeasure friction = [](const RunRow& run) { return run["friction"]; };
+  const RunMeasure gap = [](const RunRow& run) { return run["lid_raise"]; };
+  const auto is_other_friction = [](Row r) { return r["friction"] != 0.4; };
+  const auto is_other_gap = [](Row r) { return r["lid_raise"] != 0.01; };
   return {{"sensitivity", step, " s", {{"step h", {"sensitivity"}, is_usual}}},
           {"sensitivity", friction, "", {{"friction μ", {"sensitivity"}, is_other_friction}}},
           {"sensitivity", gap, " m", {{"gap under the lid", {"sensitivity"}, is_other_gap}}}};
@@ -226,11 +220,10 @@ void add_changes(const CaseTable& what, const std::vector<Case>& cases, PaperSec
       const SampleMean change = log_change(*same, group, prefactor_of);
       if (!std::isfinite(change.mean)) continue;
       chances.push_back(change.p());
-      table.rows.push_back(
-          {row.name, group.label + what.unit, words_of_change(change), words_of_p(change.p()),
-           page::Text(), words_of_change(log_change(*same, group, speed_of)),
-           words_of_change(log_change(*same, group,
-                                      [](const RunSummary& run) { return run.compaction.gain; }))});
+      table.rows.push_back({row.name, group.label + what.unit, words_of_change(change),
+                            words_of_p(change.p()), page::Text(),
+                            words_of_change(log_change(*same, group, speed_of)),
+                            words_of_change(log_change(*same, group, gain_of))});
     }
   const std::vector<double> corrected = holm(chances);
   for (size_t k = 0; k < corrected.size(); ++k) table.rows[k][4] = words_of_p(corrected[k]);
@@ -245,15 +238,8 @@ void add_changes(const CaseTable& what, const std::vector<Case>& cases, PaperSec
   section.add(table);
 }
 
-std::vector<double> all_of(const std::vector<const RunRow*>& rows, RunMeasure measure) {
-  std::vector<double> all;
-  for (const RunRow* row : rows) all.push_back(measure(row->run));
-  return all;
-}
-
 /// Standard deviation over the mean, in percent.
-page::Text scatter_words(const std::vector<double>& values) {
-  const SampleMean mean = sample_mean(values);
+page::Text scatter_words(const SampleMean& mean) {
   if (mean.samples < 2) return "–";
   return page::number(100.0 * mean.deviation() / std::abs(mean.mean), 2);
 }
@@ -269,10 +255,10 @@ const PaperNumber paper_numbers[] = {
     {"exponent of Δx~max~ in ν", PaperRange::exponent(-2.0), rise_of, true},
     {"exponent of v~max~ in ν", PaperRange::exponent(-1.0), speed_of, true},
     {"C at 5 Hz", PaperRange::roughly(paper::prefactor), prefactor_of, false},
-    {"ρ before the drive", PaperRange::about(paper::solid_fraction_initial, 0.005),
-     [](const RunSummary& run) { return run.compaction.initial; }, false},
-    {"Δρ~1~/ρ~0~ a period at 5 Hz", PaperRange::roughly(paper::gain_per_period),
-     [](const RunSummary& run) { return run.compaction.relative_gain; }, false}};
+    {"ρ before the drive", PaperRange::about(paper::solid_fraction_initial, 0.005), density_of,
+     false},
+    {"Δρ~1~/ρ~0~ a period at 5 Hz", PaperRange::roughly(paper::gain_per_period), relative_gain_of,
+     false}};
 
 Found found_of(const PaperNumber& number, const Groups& groups) {
   if (!number.is_exponent) {
@@ -306,25 +292,26 @@ void add_cases(PaperData& data, PaperSection& section) {
 }
 
 void fill_replicas(PaperData& data, PaperSection& section) {
-  const auto slow = data.rows(
-                 {"", {"replicas"}, [](const RunRow&r) { return frequency_of(r.run) == 10.0; }}),
-             fast = data.rows(
-                 {"", {"replicas"}, [](const RunRow&r) { return frequency_of(r.run) == 60.0; }});
-  if (slow.size() + fast.size() < 2) return;
+  Group slow, fast;
+  for (const RunRow* row : data.rows({"", {"replicas"}})) {
+    if (frequency_of(*row) == 10.0) slow.samples.push_back(row);
+    if (frequency_of(*row) == 60.0) fast.samples.push_back(row);
+  }
+  if (slow.samples.size() + fast.samples.size() < 2) return;
   page::Table table = page::words_table("replicas.table");
   for (const StageColumn& column : stage_columns) {
     table.rows.push_back({page::marked(column.head)});
-    for (const auto& rows : {slow, fast}) {
-      const std::vector<double> values = all_of(rows, column.value);
-      table.rows.back().push_back(page::number(column.factor * sample_mean(values).mean));
-      table.rows.back().push_back(scatter_words(values));
+    for (const Group& group : {slow, fast}) {
+      const SampleMean mean = group.mean(column.value);
+      table.rows.back().push_back(page::number(column.factor * mean.mean));
+      table.rows.back().push_back(scatter_words(mean));
     }
   }
   section.add(table);
-  section.report("replicas.claim", {{"slow", scatter_words(all_of(slow, rise_of))},
-                                    {"slow_runs", std::to_string(slow.size())},
-                                    {"fast", scatter_words(all_of(fast, rise_of))},
-                                    {"fast_runs", std::to_string(fast.size())}});
+  section.report("replicas.claim", {{"slow", scatter_words(slow.mean(rise_of))},
+                                    {"slow_runs", std::to_string(slow.samples.size())},
+                                    {"fast", scatter_words(fast.mean(rise_of))},
+                                    {"fast_runs", std::to_string(fast.samples.size())}});
 }
 
 void fill_reading(PaperData& data, PaperSection& section) {

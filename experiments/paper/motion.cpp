@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "experiments/run/run_folder.hpp"
 
@@ -13,16 +12,17 @@ namespace {
 /// Below this part of its largest speed a moving wall is neither active nor passive yet.
 constexpr double slow_part = 0.2;
 
-bool is_between_grains(const MechanicalSystem& system, const PairForce& pair) {
-  return pair.body_a < system.grain_count && pair.body_b < system.grain_count;
-}
-
 }  // namespace
 
-std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts,
-                                   std::span<const Vec3> impulses, double h) {
-  if (contacts.size() != impulses.size())
-    throw std::invalid_argument("pair forces need as many impulses as contacts");
+double major_inclination(const Mat3& tensor) {
+  // Mohr's circle: the direction of the larger principal value within the plane
+  const double angle = 0.5 * std::atan2(tensor(0, 2) + tensor(2, 0),
+                                        tensor(0, 0) - tensor(2, 2));  // in (-90, 90] degrees
+  return std::abs(angle) * 180.0 / std::numbers::pi;
+}
+
+std::vector<PairForce> StoredState::pairs() const {
+  const std::vector<ContactPoint>& contacts = at.memory.contacts;
   std::vector<PairForce> pairs;
   for (size_t k = 0; k < contacts.size();) {
     const ContactPoint& first = contacts[k];
@@ -32,7 +32,7 @@ std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts,
     for (; k < contacts.size() && contacts[k].body_a == first.body_a &&
            contacts[k].body_b == first.body_b;
          ++k) {
-      const Vec3 force = impulses[k] / h;
+      const Vec3 force = at.memory.impulses[k] / step;
       const double normal = std::max(0.0, force.dot(contacts[k].normal));
       pair.force += force;
       pair.position += normal * contacts[k].position;
@@ -45,44 +45,11 @@ std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts,
   return pairs;
 }
 
-Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state,
-                   std::span<const PairForce> pairs, double volume) {
-  Mat3 sum = Mat3::Zero();
-  // a wall has no centre: its branch vector ends at the contact
-  const auto place = [&](int body, const Vec3& contact) -> Vec3 {
-    return body < system.grain_count ? state.pose[static_cast<size_t>(body)].position : contact;
-  };
-  // The Love-Weber formula: force times branch vector, from the centre of a to that of b.
-  for (const PairForce& pair : pairs)
-    sum += pair.force *
-           (place(pair.body_b, pair.position) - place(pair.body_a, pair.position)).transpose();
-  return 0.5 * (sum + sum.transpose()) / volume;
-}
-
-double major_inclination(const Mat3& tensor) {
-  // Mohr's circle: the direction of the larger principal value within the plane
-  const double angle = 0.5 * std::atan2(tensor(0, 2) + tensor(2, 0),
-                                        tensor(0, 0) - tensor(2, 2));  // in (-90, 90] degrees
-  return std::abs(angle) * 180.0 / std::numbers::pi;
-}
-
-Vec3 wall_place(const MechanicalSystem& system, const MotionState& state, BoxWall wall) {
-  return state.pose[static_cast<size_t>(system.grain_count) + static_cast<size_t>(wall)].position;
-}
-
-double box_volume(const MechanicalSystem& system, const MotionState& state) {
-  const auto wall = [&](BoxWall which) { return wall_place(system, state, which); };
-  return (wall(wall_x_max).x() - wall(wall_x_min).x()) *
-         (wall(wall_y_max).y() - wall(wall_y_min).y()) *
-         (wall(wall_lid).z() - wall(wall_floor).z());
-}
-
-std::vector<double> relative_normal_forces(const MechanicalSystem& system,
-                                           std::span<const PairForce> pairs) {
+std::vector<double> StoredState::relative_normal_forces() const {
   std::vector<double> forces;
   double sum = 0.0;
-  for (const PairForce& pair : pairs)
-    if (is_between_grains(system, pair)) {
+  for (const PairForce& pair : pairs())
+    if (pair.body_a < system.grain_count && pair.body_b < system.grain_count) {
       forces.push_back(pair.normal_force());
       sum += forces.back();
     }
@@ -90,8 +57,25 @@ std::vector<double> relative_normal_forces(const MechanicalSystem& system,
   return forces;
 }
 
-std::vector<PairForce> StoredState::pairs() const {
-  return pair_forces(at.memory.contacts, at.memory.impulses, step);
+Mat3 StoredState::stress() const {
+  Mat3 sum = Mat3::Zero();
+  // The Love-Weber formula: force times branch vector, from the centre of a to that of b.
+  for (const PairForce& pair : pairs())
+    sum += pair.force * (centre(pair.body_b, pair) - centre(pair.body_a, pair)).transpose();
+  const double volume = (wall(wall_x_max).x() - wall(wall_x_min).x()) *
+                        (wall(wall_y_max).y() - wall(wall_y_min).y()) *
+                        (wall(wall_lid).z() - wall(wall_floor).z());
+  return 0.5 * (sum + sum.transpose()) / volume;
+}
+
+Vec3 StoredState::centre(int body, const PairForce& pair) const {
+  return body < system.grain_count ? at.state.pose[static_cast<size_t>(body)].position
+                                   : pair.position;
+}
+
+Vec3 StoredState::wall(BoxWall which) const {
+  return at.state.pose[static_cast<size_t>(system.grain_count) + static_cast<size_t>(which)]
+      .position;
 }
 
 std::vector<MotionRun> read_motion(PaperData& data) {

@@ -37,27 +37,8 @@ struct PairForce {
   double normal_force() const { return force.dot(normal); }  ///< > 0: compressive
 };
 
-/// Contacts must be sorted by (a, b), as detection gives them. Pairs without a compressive force
-/// are left out. h: step of the impulses [s].
-std::vector<PairForce> pair_forces(std::span<const ContactPoint> contacts,
-                                   std::span<const Vec3> impulses, double h);
-
-/// sigma = 1/V sum f l^T over contacts, f on b by a, l from a's centre to b's (from the contact
-/// point where a is a wall); symmetric part. Compression is positive. volume [m^3]; [Pa].
-Mat3 stress_tensor(const MechanicalSystem& system, const MotionState& state,
-                   std::span<const PairForce> pairs, double volume);
-
 /// Angle of the major principal direction within the xz plane to the horizontal, 0 to 90 degrees.
 double major_inclination(const Mat3& tensor);
-
-/// A point of one of the box's walls, where `state` has it [m].
-Vec3 wall_place(const MechanicalSystem& system, const MotionState& state, BoxWall wall);
-/// Volume between the box's walls [m^3]; `state` places them.
-double box_volume(const MechanicalSystem& system, const MotionState& state);
-
-/// Normal forces of grain-grain contacts over their mean.
-std::vector<double> relative_normal_forces(const MechanicalSystem& system,
-                                           std::span<const PairForce> pairs);
 
 /// One state of a run.
 struct StoredState {
@@ -67,10 +48,23 @@ struct StoredState {
   WallPhase phase = WallPhase::none;
   double wall_speed = 0.0;  ///< outward, smoothed [m/s]
 
-  /// Forces between its bodies.
+  /// Forces between its bodies, whose contacts must be sorted by (a, b), as detection gives them.
+  /// Pairs without a compressive force are left out.
   std::vector<PairForce> pairs() const;
+  /// Normal forces of grain-grain contacts over their mean.
+  std::vector<double> relative_normal_forces() const;
+  /// 1/V sum f l^T over contacts, f on b by a, l from a's centre to b's (from the contact point
+  /// where a is a wall), V between the walls of the box; symmetric part. Compression is positive
+  /// [Pa].
+  Mat3 stress() const;
+  /// A grain's centre; of a wall the place where the pair touches [m].
+  Vec3 centre(int body, const PairForce& pair) const;
   /// Where it has a wall of the box [m].
-  Vec3 wall(BoxWall which) const { return wall_place(system, at.state, which); }
+  Vec3 wall(BoxWall which) const;
+  /// Between the walls in x, from z = 0 to the lid.
+  XzRectangle box() const {
+    return {wall(wall_x_min).x(), wall(wall_x_max).x(), 0.0, wall(wall_lid).z()};
+  }
   /// y of the plane halfway between the side walls [m].
   double middle() const { return 0.5 * (wall(wall_y_min).y() + wall(wall_y_max).y()); }
 };

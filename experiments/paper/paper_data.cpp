@@ -60,38 +60,21 @@ std::vector<CampaignRun> read_campaign(const CampaignSettings& settings) {
   return runs;
 }
 
-double frequency_of(const RunSummary& run) { return run.facts.frequency; }
-double grains_of(const RunSummary& run) { return run.facts.grains; }
-double rise_of(const RunSummary& run) { return run.rise.mean; }
-double speed_of(const RunSummary& run) { return run.speed_in.mean; }
-double eq3_of(const RunSummary& run) { return eq3_displacement(run.facts); }
-double prefactor_of(const RunSummary& run) { return run.rise.mean / eq3_of(run); }
-double theory_of(const RunSummary& run) { return run.law.prefactor; }
-double gain_of(const RunSummary& run) { return run.compaction.gain; }
-double rate_of(const RunSummary& run) { return run.compaction.rate; }
-double common_rate_of(const RunSummary& run) { return run.compaction.rate_common; }
-double push_of(const RunSummary& run) {
-  return run.law.push / (run.facts.grain_mass * run.facts.gravity);
-}
-double force_of(const RunSummary& run) {
-  return run.facts.f_max / (run.facts.grain_mass * run.facts.gravity);
-}
-
-const RunSummary* Group::of_seed(int seed) const {
+const RunRow* Group::like(const RunRow& other) const {
   for (const RunRow* row : samples)
-    if (row->run.facts.seed == seed) return &row->run;
+    if ((*row)["seed"] == other["seed"]) return row;
   return nullptr;
 }
 
 std::vector<double> Group::values(RunMeasure measure) const {
   std::vector<double> all;
-  for (const RunRow* row : samples) all.push_back(measure(row->run));
+  for (const RunRow* row : samples) all.push_back(measure(*row));
   return all;
 }
 
 std::vector<double> Group::logs(RunMeasure measure) const {
   std::vector<double> all = values(measure);
-  for (double& value : all) value = std::log(value);
+  for (double& one : all) one = std::log(one);
   return all;
 }
 
@@ -115,17 +98,17 @@ Points points_of(const Groups& groups, RunMeasure x, RunMeasure y, double x_fact
 SampleMean log_change(const Group& from, const Group& to, RunMeasure measure) {
   std::vector<double> changes;
   for (const RunRow* row : from.samples)
-    if (const RunSummary* same = to.of_seed(row->run.facts.seed))
-      changes.push_back(std::log(measure(*same)) - std::log(measure(row->run)));
+    if (const RunRow* same = to.like(*row))
+      changes.push_back(std::log(measure(*same)) - std::log(measure(*row)));
   return sample_mean(changes);
 }
 
 SampleMean exponent_by_sample(const Groups& groups, RunMeasure along, RunMeasure measure,
                               size_t fewest) {
-  std::map<int, Points> samples;
+  std::map<double, Points> samples;  // by seed
   for (const Group& group : groups)
     for (const RunRow* row : group.samples)
-      samples[row->run.facts.seed].add(along(row->run), {measure(row->run)});
+      samples[(*row)["seed"]].add(along(*row), {measure(*row)});
   std::vector<double> exponents;
   for (const auto& [seed, points] : samples)
     if (points.x.size() >= fewest) exponents.push_back(fit_power(points.x, points.y).exponent);
@@ -139,11 +122,11 @@ PooledError scatter_between(const Groups& groups, RunMeasure measure) {
 }
 
 PooledError scatter_paired(const Groups& groups, RunMeasure measure) {
-  std::set<int> seeds;
+  std::set<double> seeds;
   for (const Group& group : groups)
-    for (const RunRow* row : group.samples) seeds.insert(row->run.facts.seed);
+    for (const RunRow* row : group.samples) seeds.insert((*row)["seed"]);
   // one list for each packing: what it misses of the mean in every group that has all packings
-  std::map<int, std::vector<double>> misses;
+  std::map<double, std::vector<double>> misses;
   int complete = 0;
   for (const Group& group : groups) {
     const std::vector<double> logs = group.logs(measure);
@@ -151,7 +134,7 @@ PooledError scatter_paired(const Groups& groups, RunMeasure measure) {
     if (mean.samples < static_cast<int>(seeds.size())) continue;
     ++complete;
     for (size_t k = 0; k < logs.size(); ++k)
-      misses[group.samples[k]->run.facts.seed].push_back(logs[k] - mean.mean);
+      misses[(*group.samples[k])["seed"]].push_back(logs[k] - mean.mean);
   }
   std::vector<std::vector<double>> lists;
   for (const auto& [seed, missed] : misses) lists.push_back(missed);
@@ -180,15 +163,15 @@ PaperData::PaperData(std::vector<CampaignRun> campaign, std::filesystem::path re
 
 RunRow PaperData::measured(const std::string& key) {
   const RunData data = read_run_data(folder(key));
-  RunRow row;
-  row.key = key;
-  row.record = record_hash(data.steps);
-  row.run = summarise(data.steps, data.facts);
+  RunSummary run = summarise(data.steps, data.facts);
   try {
-    row.run.roll = roll_of_periods(read_record_poses(data.folder / "record.h5"), row.run);
+    run.roll = roll_of_periods(read_record_poses(data.folder / "record.h5"), run);
   } catch (const Error& error) {
     notices_.push_back(std::string("No poses: ") + error.what());
   }
+  RunRow row(run);
+  row.key = key;
+  row.record = record_hash(data.steps);
   return row;
 }
 
@@ -215,12 +198,12 @@ std::vector<const RunRow*> PaperData::rows(const Selection& selection) {
 Groups PaperData::groups(const Selection& selection, RunMeasure along) {
   std::map<double, Group> values;
   for (const RunRow* row : rows(selection)) {
-    const double value = rounded(along(row->run));
+    const double value = rounded(along(*row));
     if (!std::isfinite(value)) continue;
     Group& group = values[value];
     group.value = value;
     group.label = printed("%g", value);
-    if (!group.of_seed(row->run.facts.seed)) group.samples.push_back(row);
+    if (!group.like(*row)) group.samples.push_back(row);
   }
   Groups groups;
   for (auto& [value, group] : values) groups.push_back(std::move(group));
@@ -237,7 +220,7 @@ Groups PaperData::settings(const Selection& selection) {
     const auto [place, is_new] = known.emplace(setting, groups.size());
     if (is_new) groups.push_back({0.0, setting});
     Group& group = groups[place->second];
-    if (!group.of_seed(row->run.facts.seed)) group.samples.push_back(row);
+    if (!group.like(*row)) group.samples.push_back(row);
   }
   return groups;
 }

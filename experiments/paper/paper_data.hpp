@@ -34,21 +34,26 @@ struct CampaignRun {
 std::vector<CampaignRun> read_campaign(const CampaignSettings& settings);
 
 /// A number of a run: a column of runs.csv, or what follows from it. SI units; NaN: not known.
-using RunMeasure = double (*)(const RunSummary& run);
+using RunMeasure = double (*)(const RunRow& run);
 
 // what is varied along, and measured, more than once
-double frequency_of(const RunSummary& run);
-double grains_of(const RunSummary& run);
-double rise_of(const RunSummary& run);         ///< Delta x_max [m]
-double speed_of(const RunSummary& run);        ///< v_max [m/s]
-double eq3_of(const RunSummary& run);          ///< X, right side of Eq. 3 without C [m]
-double prefactor_of(const RunSummary& run);    ///< C = Delta x_max / X
-double theory_of(const RunSummary& run);       ///< C by F and M as measured (force_law.hpp)
-double push_of(const RunSummary& run);         ///< F/(m g)
-double force_of(const RunSummary& run);        ///< f_max/(m g)
-double gain_of(const RunSummary& run);         ///< Delta rho_1 of a period
-double rate_of(const RunSummary& run);         ///< compaction rate, the paper's window [1/s]
-double common_rate_of(const RunSummary& run);  ///< the same, within common_window [1/s]
+inline double frequency_of(const RunRow& run) { return run["frequency"]; }
+inline double force_of(const RunRow& run) { return run["force_over_weight"]; }
+inline double grains_of(const RunRow& run) { return run["grains"]; }
+inline double aspect_of(const RunRow& run) { return run["aspect"]; }
+inline double rise_of(const RunRow& run) { return run["rise"]; }       ///< Delta x_max [m]
+inline double speed_of(const RunRow& run) { return run["speed_in"]; }  ///< v_max [m/s]
+inline double eq3_of(const RunRow& run) { return run["eq3"]; }         ///< X, Eq. 3 without C [m]
+inline double prefactor_of(const RunRow& run) { return run["prefactor"]; }  ///< C
+inline double theory_of(const RunRow& run) { return run["prefactor_theory"]; }
+inline double time90_of(const RunRow& run) { return run["first_time90"]; }
+inline double density_of(const RunRow& run) { return run["density_before"]; }
+inline double gain_of(const RunRow& run) { return run["gain"]; }  ///< Delta rho_1 of a period
+inline double relative_gain_of(const RunRow& run) {
+  return gain_of(run) / run["density_reference"];
+}
+inline double rate_of(const RunRow& run) { return run["rate"]; }  ///< the paper's window [1/s]
+inline double common_rate_of(const RunRow& run) { return run["rate_common"]; }
 
 /// Rows of these stages for which `holds` (null: all of them).
 struct Selection {
@@ -63,8 +68,8 @@ struct Group {
   std::string label;
   std::vector<const RunRow*> samples = {};
 
-  const RunSummary& first() const { return samples.front()->run; }
-  const RunSummary* of_seed(int seed) const;  ///< null: none
+  /// The sample of the same seed; null: none.
+  const RunRow* like(const RunRow& other) const;
   std::vector<double> values(RunMeasure measure) const;
   SampleMean mean(RunMeasure measure) const { return sample_mean(values(measure)); }
   /// One logarithm of each sample.

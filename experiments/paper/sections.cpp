@@ -1,14 +1,25 @@
 #include "experiments/paper/sections.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
+#include "experiments/page/html.hpp"
+#include "experiments/page/markdown.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr double least_law_p = 0.01;
 
 constexpr const char* every_section = "all";
 
@@ -38,7 +49,106 @@ std::set<std::string> needed(const std::vector<CampaignRun>& campaign, const std
   return stages;
 }
 
+std::string listed(const std::map<std::string, int>& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts)
+    text += (text.empty() ? "" : "; ") + name + " (" + std::to_string(count) + " runs)";
+  return text;
+}
+
+/// What the finished runs were made by: programs, machines, steps, wall clock.
+std::vector<page::Text> origin_of(PaperData& data) {
+  std::map<std::string, int> commits, machines;
+  std::set<std::string> seen;
+  double steps = 0.0, seconds = 0.0;
+  for (const CampaignRun& run : data.campaign()) {
+    if (!data.has(run) || !seen.insert(run.key).second) continue;
+    const auto manifest = nlohmann::json::parse(
+        read_whole_file(data.folder(run.key) / "manifest.json"), nullptr, false);
+    if (!manifest.is_object()) continue;
+    ++commits[manifest.value("/ballast/commit"_json_pointer, "unknown")];
+    ++machines[manifest.value("/machine/cpu"_json_pointer, "unknown")];
+    steps += static_cast<double>(run.steps);
+    seconds += 1e-3 * manifest.value("/summary/ms_per_step"_json_pointer, 0.0) *
+               static_cast<double>(run.steps);
+  }
+  std::vector<page::Text> parts =
+      parts_of(page::words("paper.origin", {{"finished", std::to_string(data.finished())},
+                                            {"runs", std::to_string(data.planned())},
+                                            {"steps", page::number(steps, 4)},
+                                            {"seconds", page::number(seconds, 3)},
+                                            {"commits", listed(commits)},
+                                            {"machines", listed(machines)}}),
+               "||");
+  const auto add = [&](const char* name, size_t count) {
+    if (count > 0) parts.push_back(page::words(name, {{"rows", std::to_string(count)}}));
+  };
+  add("paper.rows", data.known_by_row());
+  add("paper.foreign", data.foreign());
+  if (const auto [made, same] = data.repeats(); made > 0)
+    parts.push_back(page::words("paper.repeats",
+                                {{"made", std::to_string(made)}, {"same", std::to_string(same)}}));
+  parts.insert(parts.end(), data.notices().begin(), data.notices().end());
+  return parts;
+}
+
 }  // namespace
+
+const char* word_of(Agreement agreement) {
+  constexpr const char* words[] = {"agrees", "partly", "DIFFERS", "reported"};
+  return words[static_cast<size_t>(agreement)];
+}
+
+PaperRange PaperRange::widened() const {
+  const double width = high - low;
+  return std::isfinite(width) ? PaperRange{low - width, high + width} : *this;
+}
+
+PaperRange PaperRange::about(double value, double half_width) {
+  return {value - half_width, value + half_width};
+}
+PaperRange PaperRange::exponent(double value) { return about(value, 0.1); }
+PaperRange PaperRange::roughly(double value) { return about(value, 0.3 * std::abs(value)); }
+PaperRange PaperRange::at_most(double value) { return {-unbounded, value}; }
+PaperRange PaperRange::at_least(double value) { return {value, unbounded}; }
+
+Found found(const SampleMean& mean) {
+  const double half = mean.half_width();
+  return {.value = mean.mean, .low = mean.mean - half, .high = mean.mean + half};
+}
+
+Found found(const PowerFit& fit, double law_p) {
+  return {.value = fit.exponent,
+          .low = fit.exponent - fit.half_width,
+          .high = fit.exponent + fit.half_width,
+          .law_p = law_p};
+}
+
+Agreement agreement_of(const PaperRange& paper, const Found& found) {
+  if (!std::isfinite(found.low) || !std::isfinite(found.high)) return Agreement::reported;
+  const PaperRange wide = paper.widened();
+  const bool is_sharp = wide.holds(found.low) && wide.holds(found.high),
+             holds = std::isnan(found.law_p) || found.law_p >= least_law_p;
+  if (paper.holds(found.value) && is_sharp && holds && found.is_whole) return Agreement::agrees;
+  if (wide.holds(found.value)) return Agreement::partly;
+  const bool reaches = found.low <= paper.high && found.high >= paper.low;
+  return reaches ? Agreement::reported : Agreement::differs;
+}
+
+page::Text words_of(const PaperRange& range) {
+  if (std::isinf(range.low)) return "≤ " + page::exact(range.high);
+  if (std::isinf(range.high)) return "≥ " + page::exact(range.low);
+  return page::exact(range.low) + " … " + page::exact(range.high);
+}
+
+page::Text words_of(const Found& found) {
+  page::Text text = page::number(found.value);
+  if (std::isfinite(found.low) && std::isfinite(found.high))
+    text += " " + page::interval(found.low, found.high);
+  if (found.law_p < least_law_p) text += "; the law misses the points";
+  if (!found.is_whole) text += "; a part of the statement";
+  return text;
+}
 
 std::span<const ReportSection> paper_sections() {
   static const std::vector<ReportSection> table{
@@ -225,6 +335,54 @@ std::string figure_csv(const Figure& figure) {
     }
   }
   return csv.take();
+}
+
+page::Page paper_page(const std::vector<PaperSection>& sections,
+                      const std::vector<page::Text>& origin) {
+  page::Page page{.title = "The paper, figure by figure", .lede = {page::words("paper.lede")}};
+  page::Table agreement = page::words_table("paper.agreement"),
+              beyond = page::words_table("paper.beyond");
+  for (const PaperSection& section : sections) {
+    for (const AgreementRow& row : section.rows)
+      agreement.rows.push_back({row.place, row.paper, word_of(row.agreement), row.ballast,
+                                words_of(row.range), words_of(row.found)});
+    for (const BeyondRow& finding : section.findings)
+      beyond.rows.push_back({finding.what, finding.found});
+  }
+  page.add({"origin", "What was run", {page::List{origin}}});
+  page.add({"agreement", "Paper, Ballast, agreement", {page::words("paper.rule"), agreement}});
+  page.add({"beyond", "Beyond the paper", {beyond}});
+  page.add({"parameters",
+            "What the paper says and what was chosen",
+            {page::words_table("paper.parameters"), page::words("paper.unknown")}});
+  for (const PaperSection& section : sections) {
+    page::Section part{section.id, section.heading, {page::Notices{{}, section.notes}}};
+    for (const page::Text& paragraph : section.text) part.add(paragraph);
+    part.add(section.figures);
+    for (page::Table table : section.tables) {
+      table.caption += ":";
+      part.add(table);
+    }
+    page.add(part);
+  }
+  return page;
+}
+
+void write_paper_report(PaperData& data, const std::vector<PaperSection>& sections,
+                        const fs::path& folder) {
+  create_folder(folder / "data");
+  for (const PaperSection& section : sections)
+    for (const page::Picture& figure : section.figures)
+      write_whole_file(folder / "data" / (figure.plot.name + ".csv"), figure_csv(figure.plot));
+  write_whole_file(folder / "data" / "runs.csv", runs_csv(data.rows()));
+  write_whole_file(folder / "data" / "runs_columns.csv", run_columns_csv());
+  page::Page page = paper_page(sections, origin_of(data));
+  page.answers = {.are_given = true, .with_curves = true};
+  // the data stand beside as CSV, and README.md shows the files themselves
+  page::draw_pictures(page, folder, {.with_script = false, .on_white = true});
+  write_html_file(folder / "paper.html", page);
+  page.lede.push_back(page::words("paper.made_by"));
+  write_whole_file(folder / "README.md", markdown_of(page));
 }
 
 }  // namespace ballast

@@ -1,6 +1,7 @@
 #pragma once
-// The report's sections: what each is made of, which stages of the campaign it needs, and what
-// makes it. Its words stand in texts/*.md under its name.
+// The report of a reproduction: README.md, paper.html (opens offline), figures/*.svg, data/*.csv.
+// Its sections: what each is made of, which stages of the campaign it needs, and what makes it. The
+// words stand in texts/*.md under its name.
 
 #include <cmath>
 #include <span>
@@ -8,10 +9,57 @@
 #include <vector>
 
 #include "experiments/page/page.hpp"
-#include "experiments/paper/agreement.hpp"
 #include "experiments/paper/paper_data.hpp"
 
 namespace ballast {
+
+// One rule that says whether Ballast and the paper agree. It is applied to every row of the
+// report's first table; docs/manual/paper.md states it in words.
+//
+// The paper's words are a range of values, Ballast's a value with its 95 % interval.
+//   agrees    the value lies in the range, its interval within three times the range, the law whose
+//             parameter it is holds within the samples' scatter (p >= 0.01), and the whole of the
+//             paper's statement was tested
+//   partly    the value lies in the range, but one of the other three is missing; or it lies within
+//             three times the range
+//   DIFFERS   the value lies farther off, and its interval does not reach the range
+//   reported  there is no interval, or it reaches the range although the value lies far off: not
+//             decided
+
+enum class Agreement { agrees, partly, differs, reported };
+const char* word_of(Agreement agreement);
+
+/// What the paper's words allow. One side may be infinite; three times such a range is the range.
+struct PaperRange {
+  double low, high;
+
+  static PaperRange about(double value, double half_width);
+  static PaperRange exponent(double value);  ///< 0.1 to both sides
+  /// A number written with "~", or "almost": 30 % to both sides.
+  static PaperRange roughly(double value);
+  static PaperRange at_most(double value);
+  static PaperRange at_least(double value);
+
+  bool holds(double value) const { return low <= value && value <= high; }
+  PaperRange widened() const;  ///< three times as wide, about the same middle
+};
+
+/// What Ballast found.
+struct Found {
+  double value = not_known, low = not_known, high = not_known;  ///< with its 95 % interval
+  double law_p = 1.0;    ///< of the misfit of the law whose parameter it is
+  bool is_whole = true;  ///< false: a part of the paper's statement, or samples chosen by it
+};
+/// Student's interval; of one sample there is none.
+Found found(const SampleMean& mean);
+Found found(const PowerFit& fit, double law_p);
+
+Agreement agreement_of(const PaperRange& paper, const Found& found);
+
+/// "−2.1 … −1.9", "≤ 0.26"
+page::Text words_of(const PaperRange& range);
+/// "−1.70 [−1.74, −1.66]", and what keeps it from agreeing besides its value.
+page::Text words_of(const Found& found);
 
 /// One row of the table paper | Ballast | agreement.
 struct AgreementRow {
@@ -41,9 +89,8 @@ struct PaperSection {
   /// A figure with its captions: words(name.paper) and words(name.found). Unless `plot` has one,
   /// its title is words(name.title); its files are called `name`, with two digits for "fig9".
   void draw(const std::string& name, Figure plot, const page::Values& values = {});
-  /// A row of the table of agreement, judged by the one rule of agreement.hpp. words(name) is
-  /// "place
-  /// || what the paper says || what was measured".
+  /// A row of the table of agreement, judged by the one rule. words(name) is "place || what the
+  /// paper says || what was measured".
   void claim(const std::string& name, const page::Values& values, const PaperRange& range,
              const Found& found);
   /// A row of the table of what is beyond the paper. words(name) is "what || what was measured".
@@ -134,6 +181,16 @@ void fill_velocities(PaperData& data, PaperSection& section);  ///< Fig. 6: grai
 void fill_chains(PaperData& data, PaperSection& section);      ///< Fig. 7: chains, stress
 void fill_portraits(PaperData& data, PaperSection& section);   ///< Fig. 8: phase portraits
 void fill_density(PaperData& data, PaperSection& section);     ///< Fig. 12: solid fraction
-void fill_packing(PaperData& data, PaperSection& section);     ///< contacts, forces, anisotropies
+void fill_packing(PaperData& data, PaperSection& section);  ///< how contact forces are distributed
+
+/// Writes the report of these sections into `folder`, each file beside and renamed. What gnuplot
+/// cannot draw becomes a notice. Throws Error.
+void write_paper_report(PaperData& data, const std::vector<PaperSection>& sections,
+                        const std::filesystem::path& folder);
+
+/// The page that both files are written from; its figures are not drawn yet. `origin`: what the
+/// runs were made by, one sentence each.
+page::Page paper_page(const std::vector<PaperSection>& sections,
+                      const std::vector<page::Text>& origin);
 
 }  // namespace ballast

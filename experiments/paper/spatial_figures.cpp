@@ -38,8 +38,13 @@ void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
   add(not_known, not_known);
 }
 
-/// Arrows in the box around them, on axes of equal scale.
-Figure arrows_in_box(Curve arrows, const XzRectangle& box) {
+/// Arrows in the box around them, on axes of equal scale; one of length `rms` is drawn rms_arrow
+/// long.
+Figure arrows_in_box(const std::vector<Displacement>& moves, double rms, const XzRectangle& box) {
+  Curve arrows{.width = 1.2};
+  const double scale = rms > 0.0 ? rms_arrow / rms : 0.0;
+  for (const Displacement& one : moves)
+    add_arrow(arrows, one.place.x(), one.place.z(), scale * one.move.x(), scale * one.move.z());
   constexpr double margin = 0.03;  // [m]
   const Curve walls{.x = {box.x_lo, box.x_hi, box.x_hi, box.x_lo, box.x_lo},
                     .y = {0.0, 0.0, box.z_hi, box.z_hi, 0.0},
@@ -65,23 +70,16 @@ struct Field {
 Field draw(const StoredState& state) {
   const MotionState& motion = state.at.state;
   // the grains of the section, and how fast they are
-  std::vector<size_t> section;
+  std::vector<Displacement> section;
   double squares = 0.0;
   for (size_t k = 0; k < static_cast<size_t>(state.system.grain_count); ++k)
     if (std::abs(motion.pose[k].position.y() - state.middle()) < half_section_of_grains) {
-      section.push_back(k);
+      section.push_back({motion.pose[k].position, motion.velocity[k]});
       squares += motion.velocity[k].squaredNorm();
     }
   const double speed =
       std::sqrt(squares / std::max<double>(1.0, static_cast<double>(section.size())));
-  const double scale = speed > 0.0 ? rms_arrow / speed : 0.0;
-  Curve arrows{.width = 1.2};
-  for (const size_t k : section)
-    add_arrow(arrows, motion.pose[k].position.x(), motion.pose[k].position.z(),
-              scale * motion.velocity[k].x(), scale * motion.velocity[k].z());
-  const double right = state.wall(wall_x_max).x(), left = state.wall(wall_x_min).x();
-  return {arrows_in_box(std::move(arrows), {left, right, 0.0, state.wall(wall_lid).z()}),
-          -state.wall_speed, speed};
+  return {arrows_in_box(section, speed, state.box()), -state.wall_speed, speed};
 }
 
 /// The mean displacement of a period on a grid: a roll would close. `rms` of the cells [m].
@@ -97,11 +95,7 @@ Figure period_field(const MotionRun& run, double& rms) {
   for (const Displacement& cell : cells)
     squares += cell.move.x() * cell.move.x() + cell.move.z() * cell.move.z();
   rms = std::sqrt(squares / static_cast<double>(cells.size()));
-  Curve arrows{.width = 1.2};
-  for (const Displacement& cell : cells)
-    add_arrow(arrows, cell.place.x(), cell.place.z(), rms_arrow / rms * cell.move.x(),
-              rms_arrow / rms * cell.move.z());
-  return arrows_in_box(std::move(arrows), box);
+  return arrows_in_box(cells, rms, box);
 }
 
 /// Contacts this near the middle plane are drawn [m].
@@ -117,25 +111,18 @@ struct Chains {
     double force;  ///< normal [N]
   };
   std::vector<Segment> segments = {};
-  double mean = 0.0;                          ///< normal force of all contacts of the state [N]
-  double left = 0.0, right = 0.0, top = 0.0;  ///< of the box [m]
+  double mean = 0.0;  ///< normal force of all contacts of the state [N]
+  XzRectangle box = {};
 };
 
 Chains chains_of(const StoredState& state) {
-  Chains chains;
-  chains.left = state.wall(wall_x_min).x();
-  chains.right = state.wall(wall_x_max).x();
-  chains.top = state.wall(wall_lid).z();
+  Chains chains{.box = state.box()};
   const std::vector<PairForce> pairs = state.pairs();
-  const auto centre = [&](int body, const PairForce& pair) -> Vec3 {
-    return body < state.system.grain_count ? state.at.state.pose[static_cast<size_t>(body)].position
-                                           : pair.position;
-  };
   for (const PairForce& pair : pairs) {
     chains.mean += pair.normal_force() / static_cast<double>(pairs.size());
     if (std::abs(pair.position.y() - state.middle()) < half_section_of_contacts)
       chains.segments.push_back(
-          {centre(pair.body_a, pair), centre(pair.body_b, pair), pair.normal_force()});
+          {state.centre(pair.body_a, pair), state.centre(pair.body_b, pair), pair.normal_force()});
   }
   return chains;
 }
@@ -155,19 +142,19 @@ Panel panel_of(const Chains& chains, double width, const std::string& title, boo
     curve.x.push_back(not_known);
     curve.y.push_back(not_known);
   }
-  const Curve walls{.x = {chains.right, chains.left, chains.left, chains.right},
-                    .y = {0.0, 0.0, chains.top, chains.top},
+  const Curve walls{.x = {chains.box.x_hi, chains.box.x_lo, chains.box.x_lo, chains.box.x_hi},
+                    .y = {0.0, 0.0, chains.box.z_hi, chains.box.z_hi},
                     .ink = Ink::grey},
-      driven{.x = {chains.right, chains.right},
-             .y = {0.0, chains.top},
+      driven{.x = {chains.box.x_hi, chains.box.x_hi},
+             .y = {0.0, chains.box.z_hi},
              .ink = Ink::vermilion,
              .width = 3.0};
   Panel panel{.x_label = "{/:Italic x}  (m)   " + title,
               .y_label = "{/:Italic z}  (m)",
               .y_min = -chain_margin,
-              .y_max = chains.top + chain_margin,
-              .x_min = chains.left - chain_margin,
-              .x_max = chains.right + chain_margin,
+              .y_max = chains.box.z_hi + chain_margin,
+              .x_min = chains.box.x_lo - chain_margin,
+              .x_max = chains.box.x_hi + chain_margin,
               .curves = {walls, driven}};
   const auto newtons = [&](size_t n) {
     return plot_label(page::number(width * static_cast<double>(n), 2));
@@ -184,23 +171,10 @@ Panel panel_of(const Chains& chains, double width, const std::string& title, boo
   return panel;
 }
 
-/// The phases in the order of the table, with the mean stress of a run's states in each.
+/// The phases in the order of the table.
 constexpr std::pair<WallPhase, const char*> phases[] = {
     {WallPhase::passive, "passive"}, {WallPhase::jammed, "jammed"}, {WallPhase::active, "active"}};
 constexpr size_t passive = 0, jammed = 1, active = 2;
-
-struct PhaseStress {
-  Mat3 sum = Mat3::Zero();
-  bool is_known = false;
-
-  void add(const StoredState& state) {
-    sum += stress_tensor(state.system, state.at.state, state.pairs(),
-                         box_volume(state.system, state.at.state));
-    is_known = true;
-  }
-  double inclination() const { return is_known ? major_inclination(sum) : not_known; }
-  double ratio() const { return is_known ? sum(0, 0) / sum(2, 2) : not_known; }
-};
 
 /// "Nearly" horizontal or vertical [degrees].
 constexpr double nearly = 20.0;
@@ -264,7 +238,10 @@ void fill_velocities(PaperData& data, PaperSection& section) {
   std::vector<double> round;
   double closed = 0.0;
   for (const RunRow* row : data.rows({"", {"motion"}})) {
-    round.push_back(row->run.roll.roundness());
+    round.push_back(
+        Roll{{(*row)["roll_top"], (*row)["roll_right"], (*row)["roll_bottom"], (*row)["roll_left"]},
+             (*row)["circulation"]}
+            .roundness());
     closed += round.back() > 0.0;
   }
   const SampleMean roundness = sample_mean(round);
@@ -290,11 +267,12 @@ void fill_chains(PaperData& data, PaperSection& section) {
   std::array<double, 3> fastest{};
   int states = 0;
   for (const MotionRun& run : runs) {
-    std::array<PhaseStress, 3> stress;
+    std::array<Mat3, 3> stress;  // of a run's states together
+    stress.fill(Mat3::Zero());
     states += for_each_state(run, [&](const StoredState& state) {
       for (size_t k = 0; k < 3; ++k) {
         if (state.phase != phases[k].first) continue;
-        stress[k].add(state);
+        stress[k] += state.stress();
         // of the first sample the states with the fastest wall are drawn
         const double speed = std::abs(state.wall_speed);
         if (k == jammed || &run != &runs.front() || speed <= fastest[k]) continue;
@@ -303,8 +281,9 @@ void fill_chains(PaperData& data, PaperSection& section) {
       }
     });
     for (size_t k = 0; k < 3; ++k) {
-      angles[k].push_back(stress[k].inclination());
-      ratios[k].push_back(stress[k].ratio());
+      const bool is_known = !stress[k].isZero(0.0);
+      angles[k].push_back(is_known ? major_inclination(stress[k]) : not_known);
+      ratios[k].push_back(is_known ? stress[k](0, 0) / stress[k](2, 2) : not_known);
     }
   }
   if (states == 0) {
@@ -345,8 +324,7 @@ void fill_packing(PaperData& data, PaperSection& section) {
   for (const MotionRun& run : read_motion(data))
     for_each_state(run, [&](const StoredState& state) {
       for (size_t k = 0; k < 3; ++k)
-        if (state.phase == phases[k].first)
-          forces[k].add(relative_normal_forces(state.system, state.pairs()));
+        if (state.phase == phases[k].first) forces[k].add(state.relative_normal_forces());
     });
   Panel panel{.x_label = "{/:Italic f}_n / ⟨{/:Italic f}_n⟩",
               .y_label = "probability density",

@@ -171,7 +171,7 @@ page::Picture error_figure(const RunData& data, const RunSummary& summary) {
                          {{"scale", page::quantity(scale, "m/s")},
                           {"mean", page::number(summary.error_mean_relative)},
                           {"max", page::number(summary.error_max_relative)}});
-  if (is_relative && *summary.facts.has_packing) caption += page::words("run.error.box");
+  if (is_relative && summary.facts.has_packing) caption += page::words("run.error.box");
   return run_picture("error", 420, {panel}, caption);
 }
 
@@ -181,7 +181,7 @@ page::Picture penetration_figure(const RunData& data, const RunSummary& summary)
       column_line(data, &StepRecord::penetration_max, 1e6, "deepest", Ink::vermilion, 1.4),
       column_line(data, &StepRecord::penetration_mean, 1e6, "mean over active contact points",
                   Ink::blue, 1.4)};
-  if (*summary.facts.has_packing)
+  if (summary.facts.has_packing)
     panel.lines = {
         {1e6 * target::penetration_max, "250 µm: bound on the deepest", false, Ink::grey},
         {1e6 * target::penetration_mean, "5 µm: bound on the mean", false, Ink::grey}};
@@ -269,8 +269,8 @@ page::Picture figure_3(const RunData& data, const RunSummary& summary) {
   below.curves = {column_line(data, &StepRecord::load, unit.factor, "", Ink::vermilion, 2.0)};
   above.lines = {{0.0, "", false, Ink::light}};
   page::Text caption =
-      page::words(*summary.facts.has_packing ? "run.fig03.paper" : "run.fig03.wall_alone");
-  if (*summary.facts.has_packing) {
+      page::words(summary.facts.has_packing ? "run.fig03.paper" : "run.fig03.wall_alone");
+  if (summary.facts.has_packing) {
     if (std::isfinite(summary.contraction.size))
       caption += page::words("run.fig03.contraction",
                              {{"size", page::quantity(1e3 * summary.contraction.size, "mm")},
@@ -341,8 +341,8 @@ void draw_solid_fraction(const RunData& data, double initial, const std::string&
 std::vector<page::Picture> paper_figures(const RunData& data, const RunSummary& summary) {
   std::vector<page::Picture> figures;
   const bool has_loop = summary.wall.loop_first < summary.wall.loop_last;
-  const bool has_packing = *summary.facts.has_packing;
-  if (*summary.facts.has_wall) figures.push_back(figure_3(data, summary));
+  const bool has_packing = summary.facts.has_packing;
+  if (summary.facts.has_wall) figures.push_back(figure_3(data, summary));
   if (has_loop && has_packing) figures.push_back(figure_4(data, summary));
   if (has_packing) figures.push_back(figure_12(data, summary));
   return figures;
@@ -350,7 +350,7 @@ std::vector<page::Picture> paper_figures(const RunData& data, const RunSummary& 
 
 std::vector<page::Picture> diagnostic_figures(const RunData& data, const RunSummary& summary) {
   std::vector<page::Picture> figures;
-  if (summary.wall.loop_first < summary.wall.loop_last && *summary.facts.has_packing)
+  if (summary.wall.loop_first < summary.wall.loop_last && summary.facts.has_packing)
     figures.push_back(jammed_figure(data, summary));
   figures.push_back(error_figure(data, summary));
   // a scene without any overlap has no logarithm of it to show

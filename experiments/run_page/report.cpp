@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/measure/run_summary.hpp"
-#include "experiments/measure/run_trust.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/run_page/figures.hpp"
 #include "experiments/view/view_page.hpp"
@@ -88,7 +87,7 @@ void add_accuracy(const RunSummary& summary, Results& results) {
     results.plain("the same: worst step", page::quantity(summary.error_rms.max, "m/s"));
   }
   // these bounds are the vibrated box's: its grains' size, its drive
-  const double known = *summary.facts.has_packing ? 1.0 : not_known;
+  const double known = summary.facts.has_packing ? 1.0 : not_known;
   results.group("Overlap");
   results.bounded("deepest of all steps", summary.penetration_max, known * target::penetration_max,
                   "µm", 1e6);
@@ -148,8 +147,8 @@ void add_compaction(const RunSummary& summary, Results& results) {
 page::Table cost_table(const RunSummary& summary) {
   page::Table table{.head = {"phase", "ms per step", "%"}, .is_number = {false, true, true}};
   for (const PhaseCost& phase : summary.cost)
-    table.rows.push_back(
-        {phase.name, page::number(phase.ms_per_step), page::number(100.0 * phase.share)});
+    table.rows.push_back({phase.name, page::number(phase.ms_per_step),
+                          page::number(100.0 * phase.ms_per_step / summary.ms_per_step)});
   table.rows.push_back({page::Text("all", page::strong), page::number(summary.ms_per_step),
                         page::number(summary.ms_per_step > 0.0 ? 100.0 : not_known)});
   return table;
@@ -205,7 +204,7 @@ void note_what_cannot_be_said(const RunSummary& summary, RunData& data) {
     data.notices.push_back(page::plain_words(page::words(std::string("run.") + name)));
   };
   if (!std::isfinite(summary.facts.velocity_scale)) note("no_gravity");
-  if (*summary.facts.has_packing && summary.wall.periods.empty()) note("no_period");
+  if (summary.facts.has_packing && summary.wall.periods.empty()) note("no_period");
 }
 
 page::Section pictures(const char* id, const char* heading,
@@ -230,15 +229,15 @@ page::Replay replay_of_run(RunData& data) {
 page::Table results_table(const RunSummary& summary) {
   Results results;
   add_accuracy(summary, results);
-  if (*summary.facts.has_wall && *summary.facts.has_packing) add_wall(summary, results);
-  if (*summary.facts.has_packing) add_compaction(summary, results);
+  if (summary.facts.has_wall && summary.facts.has_packing) add_wall(summary, results);
+  if (summary.facts.has_packing) add_compaction(summary, results);
   results.group("Effort");
   results.plain("iterations per step: mean, most",
                 page::number(summary.iterations.mean) + ", " + page::exact(summary.iterations.max));
   results.plain("contact points per step: mean, most",
                 page::number(summary.contacts.mean, 4) + ", " + page::exact(summary.contacts.max));
   results.plain("wall clock per step", page::quantity(summary.ms_per_step, "ms"));
-  return results.table(*summary.facts.has_packing);
+  return results.table(summary.facts.has_packing);
 }
 
 page::Table periods_table(const RunSummary& summary) {
@@ -341,7 +340,7 @@ void write_report(const std::filesystem::path& folder) {
   // What must be known first stands first.
   const std::vector<std::string> words = trust_words(summary);
   if (!is_clean(summary)) data.notices.insert(data.notices.begin(), words.begin(), words.end());
-  const bool has_packing = *summary.facts.has_packing;
+  const bool has_packing = summary.facts.has_packing;
   page::Page page;
   page.title = name_of_run(data);
   page.lede = lede_of(data, summary);

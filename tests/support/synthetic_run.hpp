@@ -136,6 +136,8 @@ inline std::vector<StepRecord> synthetic_box(const SyntheticBox& box = {}) {
 inline RunFacts facts_of(const SyntheticBox& box) {
   RunFacts facts;
   facts.step = box.h;
+  facts.velocity_scale = box.gravity * box.h;
+  facts.has_wall = facts.has_packing = true;
   facts.gravity = box.gravity;
   facts.frequency = box.frequency;
   facts.f_max = box.f_max;

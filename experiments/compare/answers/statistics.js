@@ -1,5 +1,5 @@
 // Medians, means and profiles of a selection of rows; medians and means are those that
-// compare_table.cpp computes of all cases.
+// compare_page.cpp computes of all cases.
 
 /// One case by one backend, over its repeats. Times are infinite where it isn't solved.
 function cell_of(repeats) {

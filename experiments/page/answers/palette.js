@@ -7,6 +7,6 @@ const dashes = [[], [8, 5], [4, 3], [1.5, 3]];
 const variable = (name) =>
   getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 
-/// The k-th backend's: eight colours, then the same dashed (backend_curve of compare_figures.cpp).
+/// The k-th backend's: eight colours, then the same dashed (backend_curve of live_page.cpp).
 const curve_style = (k) => ({ ink: inks[k % inks.length],
                               dash: Math.floor(k / inks.length) % dashes.length });

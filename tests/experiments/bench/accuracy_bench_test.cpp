@@ -2,7 +2,7 @@
 
 #include "experiments/bench/accuracy_bench.hpp"
 
-#include "experiments/compare/compare_options.hpp"
+#include "experiments/compare/comparison.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/bench/tiny_box.hpp"
 
@@ -15,11 +15,12 @@ TEST_CASE("More iterations cost more and err less") {
   live.overrides = tiny;
   live.solvers = parse_solvers("pgs");
   live.tolerances = {1e-8};
+  live.iterations = {2, 30};
   live.duration = 4e-3;
   live.folder = folder.path();
   const Silence silence;
   std::vector<std::string> labels;
-  const LiveComparison made = measure_accuracy(live, {2, 30}, [&](const Trajectory& t) {
+  const LiveComparison made = measure_accuracy(live, [&](const Trajectory& t) {
     labels.push_back(t.label());
     return true;
   });

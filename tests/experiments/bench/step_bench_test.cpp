@@ -2,6 +2,13 @@
 
 #include "experiments/bench/step_bench.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "experiments/step/time_step.hpp"
+#include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/bench/tiny_box.hpp"
 
@@ -31,4 +38,107 @@ TEST_CASE("Steps are split into phases and states of the wall") {
       CHECK(two.back().record.*column.value == steps.back().record.*column.value);
     }
   CHECK(step_figure(steps, 10).panels[0].curves[0].x.size() == 10);
+}
+
+TEST_CASE("Every kernel does what it is timed for, again and again, and is found by its name") {
+  const std::vector<Kernel> kernels = step_kernels(tiny_box(), 2);
+  std::set<std::string> names;
+  for (const Kernel& kernel : kernels) {
+    INFO(kernel.group << "/" << kernel.name);
+    CHECK(names.insert(kernel.group + "/" + kernel.name).second);
+    CHECK(kernel.items > 1.0);
+  }
+  CHECK(names.contains("detection/from scratch"));
+  KernelBenchOptions options;
+  options.min_time = 1e-4;
+  options.repeats = 3;
+  const auto all = run_kernels(kernels, options);
+  REQUIRE(all.size() == kernels.size());
+  for (const Measurement& m : all) {
+    INFO(m.full_name());
+    CHECK(m.low > 0.0);
+    CHECK(m.samples == 3);
+  }
+  options.filter = "em/jud";
+  CHECK(run_kernels(kernels, options).at(0).name == "judge");
+  options.filter = "no such kernel";
+  CHECK_THROWS_WITH(run_kernels(kernels, options), Catch::Contains("no such kernel"));
+}
+
+TEST_CASE("Scaling measures each packing in its own process") {
+  CHECK(tiles_for(1000, 1200) == std::pair(1, 1));
+  CHECK(tiles_for(10000, 1200) == std::pair(3, 3));
+  CHECK(tiles_for(100000, 1200) == std::pair(9, 9));
+  ScalingOptions options;
+  options.grains = {12, 48};
+  options.warm_up = options.steps = options.sweeps = 2;
+  options.solvers = {"pgs"};
+  options.max_iterations = 50;
+  int heard = 0;
+  const auto points = measure_scaling(tiny_box(), options, [&](const ScalingPoint&) { ++heard; });
+  REQUIRE(points.size() == 2);
+  CHECK(heard == 2);
+  CHECK(points[0].grains == 12.0);
+  CHECK(points[1].grains == 48.0);
+  CHECK(points[1].value("contacts") > 2.0 * points[0].value("contacts"));
+  for (const ScalingPoint& p : points) {
+    CHECK(p.measured[0].group ==
+          (p.grains == 12.0 ? "1 thread, 12 grains" : "1 thread, 48 grains"));
+    CHECK(p.value("sweep") > 0.0);
+    CHECK(p.value("step") >= p.value("detect"));
+    CHECK(p.value("iterations needed, pgs") <= 50.0);
+    CHECK(p.value("time to the tolerance, pgs") > 0.0);
+  }
+  CHECK(scaling_figure(options, points).panels[0].curves[0].x == std::vector<double>{12.0, 48.0});
+  options.grains = {12};
+  options.tolerance = 1e-12;  // one sweep does not do
+  options.max_iterations = 1;
+  const auto missed = measure_scaling(tiny_box(), options, [](const ScalingPoint&) {});
+  CHECK(std::isnan(missed[0].value("iterations needed, pgs")));
+  CHECK(missed[0].value("time, tolerance not reached, pgs") > 0.0);
+  CHECK(scaling_figure(options, missed).panels[1].curves[0].x.empty());
+}
+
+TEST_CASE("Copies side by side are the packing again and again") {
+  const DepositedBox& box = tiny_box();
+  BenchStart one = tiled_start(box, 1, 1), six = tiled_start(box, 3, 2);
+  REQUIRE(six.system.grain_count == 6 * 12);
+  REQUIRE(six.state.pose.size() == six.system.bodies.size());
+  CHECK(six.system.first_driven_wall() == -1);
+  for (size_t c = 1; c < six.memory.contacts.size(); ++c) {
+    const ContactPoint &p = six.memory.contacts[c - 1], &q = six.memory.contacts[c];
+    CHECK(std::tuple(p.body_a, p.body_b, p.feature) < std::tuple(q.body_a, q.body_b, q.feature));
+  }
+  // walls between the copies are gone, and with them their contacts alone
+  size_t inner = 0;
+  for (const ContactPoint& c : one.memory.contacts) {
+    const int wall = c.body_a - 12;
+    if (wall == wall_x_min || wall == wall_x_max)
+      inner += 2 * 2;  // on each side 2 of 3 columns, 2 rows
+    if (wall == wall_y_min || wall == wall_y_max) inner += 3;
+  }
+  CHECK(six.memory.contacts.size() == 6 * one.memory.contacts.size() - inner);
+  const auto deepest = [&](BenchStart& start) {
+    TimeStepper stepper(start.system, box.scene, -1);
+    double depth = 0.0;
+    for (int k = 0; k < 5; ++k)
+      depth = std::max(depth, stepper.step(start.state, start.memory).penetration_max);
+    return depth;
+  };
+  CHECK(deepest(six) <= deepest(one) + 1e-5);  // no copy lies in another
+}
+
+TEST_CASE("A scene without grains has no packing to measure") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(deposited_box("sliding_cube", {}, folder.path()),
+                    "sliding_cube: has no grains: a bench needs a deposited packing");
+}
+
+TEST_CASE("The driven box begins as it was deposited, behind a wall that is driven") {
+  const BenchStart start = driven_start(tiny_box());
+  CHECK(start.system.grain_count == 12);
+  CHECK(start.system.first_driven_wall() >= 0);
+  CHECK(start.memory.contacts.size() == start.memory.impulses.size());
+  for (size_t b = 0; b < 12; ++b)
+    CHECK(start.state.pose[b].position == tiny_box().packing.state.pose[b].position);
 }

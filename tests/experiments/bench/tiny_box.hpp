@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/bench/bench_packing.hpp"
 #include "experiments/bench/measurement.hpp"
+#include "experiments/bench/step_bench.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <map>
 
-#include "experiments/external/external_files.hpp"
+#include "experiments/external/external_program.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "problems/algebra/known_solutions.hpp"

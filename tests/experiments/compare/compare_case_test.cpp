@@ -17,10 +17,10 @@ TEST_CASE("Cases from files: families, names, and what is refused") {
   CHECK(family_of_file("Rover1039.dat") == "Rover");
   CHECK(family_of_file("NESpheres_30_1.dat") == "NESpheres");
   const TemporaryFolder folder;
-  CHECK_THROWS_AS(compare_cases({"/no/such/*.dat"}), Error);
-  CHECK_THROWS_AS(compare_cases({"known"}), Error);
-  CHECK_THROWS_AS(compare_cases({folder.path().string()}), Error);
-  CHECK_THROWS_AS(compare_cases({folder.write("notes.txt", "").string()}), Error);
+  const std::string notes = folder.write("notes.txt", "").string(), empty = folder.path().string();
+  for (const std::string& word :
+       {std::string("/no/such/*.dat"), std::string("known"), notes, empty})
+    CHECK_THROWS_AS(compare_cases({word}), Error);
   folder.write("b.dat", "3 0 0 0 0");
   folder.write("a.dat", "3 0 0 0 0");
   const std::vector<CompareCase> cases =
@@ -29,19 +29,15 @@ TEST_CASE("Cases from files: families, names, and what is refused") {
   CHECK(cases[0].name == "a.dat");
   CHECK(cases[2].name == "a.dat (2)");
   CHECK(cases[1].word == (folder.path() / "b.dat").string());
-}
-
-TEST_CASE("Folders are searched to the bottom, and only for problems") {
-  const TemporaryFolder folder;
+  // folders are searched to the bottom, and only for problems
   std::filesystem::create_directories(folder.path() / "deep" / "deeper");
   folder.write("deep/deeper/Rover2.dat", "");
   folder.write("deep/Rover1.dat", "");
   folder.write("deep/readme.md", "");
-  const std::vector<CompareCase> cases = compare_cases({folder.path().string()});
-  REQUIRE(cases.size() == 2);
-  CHECK(cases[0].family == "Rover");
-  CHECK(cases[0].name == "Rover1.dat");
-  CHECK(cases[1].name == "Rover2.dat");
+  const std::vector<CompareCase> deep = compare_cases({(folder.path() / "deep").string()});
+  REQUIRE(deep.size() == 2);
+  CHECK(deep[0].family == "Rover");
+  CHECK(deep[0].name + deep[1].name == "Rover1.datRover2.dat");
 }
 
 TEST_CASE("A file that is missing or broken is a case, and says why when it is loaded") {
@@ -57,12 +53,11 @@ TEST_CASE("A file that is missing or broken is a case, and says why when it is l
 }
 
 TEST_CASE("What is measured of a case") {
-  KnownSolutionSettings settings;
-  settings.bodies = 3;
-  settings.contacts = 40;
-  settings.frictionless_fraction = 0.0;
-  const KnownSolution known = make_known_solution(settings);
-  const CaseFacts facts = case_facts(known.problem, {}, 2.0);
+  const KnownSolution known =
+      make_known_solution({.bodies = 3, .contacts = 40, .frictionless_fraction = 0.0});
+  const auto facts_of = [](const FrictionProblem& problem, const Impulses& start = {},
+                           double scale = 2.0) { return load_case(problem, scale, start).facts; };
+  const CaseFacts facts = facts_of(known.problem);
   CHECK(facts.contacts == 40);
   CHECK(facts.rows == 120);
   CHECK(facts.dofs == 18);
@@ -71,20 +66,17 @@ TEST_CASE("What is measured of a case") {
   FrictionProblem stored = known.problem;  // W alone
   add_delassus_form(stored);
   stored.has_dynamics = false;
-  CHECK(case_facts(stored, {}, 2.0).dofs == 0);
-  CHECK(case_facts(stored, {}, 2.0).rank_deficiency == Approx(facts.rank_deficiency));
-  CHECK(case_facts(stored, {}, 2.0).mass_ratio > 1.0);
-  CHECK(case_facts(known.problem, known.r, 2.0).content != facts.content);
-  CHECK(case_facts(known.problem, {}, 3.0).content != facts.content);
-  CHECK(case_facts(known.problem, {}, 2.0).content == facts.content);
+  CHECK(facts_of(stored).dofs == 0);
+  CHECK(facts_of(stored).rank_deficiency == Approx(facts.rank_deficiency));
+  CHECK(facts_of(stored).mass_ratio > 1.0);
+  CHECK(facts_of(known.problem, known.r).content != facts.content);
+  CHECK(facts_of(known.problem, {}, 3.0).content != facts.content);
+  CHECK(facts_of(known.problem).content == facts.content);
 }
 
 TEST_CASE("Bodies that no contact touches count for nothing") {
-  KnownSolutionSettings settings;
-  settings.bodies = 4;
-  settings.contacts = 6;
-  const FrictionProblem problem = make_known_solution(settings).problem;
-  const CaseFacts facts = case_facts(problem, {}, 1.0);
+  const FrictionProblem problem = make_known_solution({.bodies = 4, .contacts = 6}).problem;
+  const CaseFacts facts = load_case(problem, 1.0).facts;
   FrictionProblem larger = problem;
   DynamicsForm& d = larger.dynamics;
   const int first = d.mass_begin[d.body_count() - 1], last = d.mass_begin[d.body_count()];
@@ -95,7 +87,7 @@ TEST_CASE("Bodies that no contact touches count for nothing") {
   const Eigen::Index before = d.v_free.size();
   d.v_free.conservativeResize(d.dof_begin.back());
   d.v_free.tail(d.v_free.size() - before).setZero();
-  const CaseFacts same = case_facts(larger, {}, 1.0);
+  const CaseFacts same = load_case(larger, 1.0).facts;
   CHECK(same.dofs == facts.dofs);
   CHECK(same.mass_ratio == facts.mass_ratio);
   CHECK(same.rank_deficiency == Approx(facts.rank_deficiency));
@@ -103,8 +95,7 @@ TEST_CASE("Bodies that no contact touches count for nothing") {
 }
 
 TEST_CASE("A case at rest has a scale of one, and a moving one the rms of q") {
-  KnownSolutionSettings settings;
-  FrictionProblem problem = make_known_solution(settings).problem;
+  FrictionProblem problem = make_known_solution({}).problem;
   Eigen::VectorXd q;
   free_contact_velocity(problem, q);
   CHECK(load_case(problem).facts.velocity_scale ==
@@ -113,4 +104,66 @@ TEST_CASE("A case at rest has a scale of one, and a moving one the rms of q") {
   problem.dynamics.v_free.setZero();
   problem.dynamics.bias.setZero();
   CHECK(load_case(problem).facts.velocity_scale == 1.0);
+}
+
+TEST_CASE("Made cases are what their words say") {
+  CHECK(compare_cases({"known:count=3"}).size() == 3);
+  const std::vector<CompareCase> made = compare_cases({"stress:all"});
+  CHECK(made.size() > 10);
+  for (const CompareCase& c : made) CHECK_NOTHROW(c.load());
+}
+
+TEST_CASE("Settings of a made case are in its name, and in the problem") {
+  const std::vector<CompareCase> known =
+      compare_cases({"known:bodies=5,contacts=7,copies=2,seed=4,count=2,frictionless=0"});
+  REQUIRE(known.size() == 2);
+  CHECK(known[0].name == "known-b5-c7x2-R1-s4");
+  CHECK(known[1].name == "known-b5-c7x2-R1-s5");
+  CHECK(known[0].family == "known");
+  const LoadedCase first = known[0].load();
+  CHECK(first.facts.contacts == 14);
+  CHECK(first.facts.rows == 42);
+  CHECK(first.facts.content != known[1].load().facts.content);
+  CHECK(first.facts.content == known[0].load().facts.content);
+  CHECK(first.describe_contact(3) == "contact 3");
+  CHECK(first.describe_contact(-1).empty());
+}
+
+TEST_CASE("A made case has a word that makes it alone") {
+  for (const char* words : {"known:", "known:count=3,seed=7,bodies=5", "pile:family,count=2",
+                            "pile:contacts=30,count=2,seed=3"})
+    for (const CompareCase& made : compare_cases({words})) {
+      INFO(made.word);
+      const std::vector<CompareCase> again = compare_cases({made.word});
+      REQUIRE(again.size() == 1);
+      CHECK(again[0].name == made.name);
+      CHECK(again[0].load().facts.content == made.load().facts.content);
+    }
+}
+
+TEST_CASE("Words that make no case are refused by name") {
+  for (const std::string word :
+       {"known:bodies=x", "known:colour=3", "known:contacts=0", "known:bodies", "known:bodies=-1",
+        "known:bodies=1e10", "known:count=1e8", "known:copies=1e9", "stress:", "stress:pile",
+        "stress:all,weight=3", "stress:all,chain"})
+    CHECK_THROWS_WITH(compare_cases({word}), Catch::StartsWith(word + ": "));
+}
+
+TEST_CASE("Piles are made as their words say, and a family from its seeds") {
+  const std::vector<CompareCase> piles = compare_cases(
+      {"pile:contacts=40,redundancy=.5,mass_ratio=100,friction_min=.2,active=.6,stored=1,seed=3,"
+       "count=2"});
+  REQUIRE(piles.size() == 2);
+  CHECK(piles[0].name == "pile-c40-d0.5-R1e+02-f0.2..0.3-a0.6-s3-w");
+  CHECK(piles[0].family == "pile, mid");
+  const LoadedCase loaded = piles[0].load();
+  CHECK(loaded.facts.contacts == 40);
+  CHECK(loaded.facts.dofs == 0);  // only W is known
+  CHECK(loaded.facts.rank_deficiency == Approx(0.5).margin(0.1));
+  const std::vector<CompareCase> family = compare_cases({"pile:family,contacts=50,seed=4,count=9"});
+  REQUIRE(family.size() == 9);
+  for (const CompareCase& c : family) CHECK(c.load().facts.contacts <= 50);
+  for (const std::string word : {"pile:redundancy=1", "pile:active=2", "pile:tower",
+                                 "pile:friction_min=.5,friction_max=.4", "pile:family,active=1"})
+    CHECK_THROWS_AS(compare_cases({word}), Error);
 }

@@ -1,14 +1,19 @@
 // The closed loop from one start: equal settings are equal bits, looser tolerances are farther from
 // the reference.
 
-#include "experiments/compare/live.hpp"
+#include "experiments/compare/live_page.hpp"
 
-#include <iostream>
-#include <sstream>
+#include <algorithm>
+#include <cmath>
 
-#include "experiments/compare/compare_options.hpp"
+#include "experiments/compare/comparison.hpp"
+#include "experiments/page/plot.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/experiments/compare/hand_made_live.hpp"
+#include "tests/support/page_sample.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
@@ -26,31 +31,18 @@ LiveOptions small_live(const std::filesystem::path& folder) {
   options.start = 2e-3;
   options.duration = 4e-3;
   options.max_seconds = 5.0;
+  options.telling = Telling::nobody;
   options.folder = folder;
   return options;
 }
-
-struct Silence {
-  Silence() : out(std::cout.rdbuf(sink.rdbuf())), err(std::cerr.rdbuf(sink.rdbuf())) {}
-  ~Silence() {
-    std::cout.rdbuf(out);
-    std::cerr.rdbuf(err);
-  }
-  std::ostringstream sink;
-  std::streambuf *out, *err;
-};
 
 }  // namespace
 
 TEST_CASE("One start under several backends and tolerances") {
   const TemporaryFolder folder;
   const LiveOptions options = small_live(folder.path());
-  LiveComparison comparison, again;
-  {
-    const Silence silence;
-    comparison = run_live(options, [](const Trajectory&) { return true; });
-    again = run_live(options, [](const Trajectory&) { return true; });
-  }
+  const auto run = [&] { return run_live(options, [](const Trajectory&) { return true; }); };
+  const LiveComparison comparison = run();
   REQUIRE(comparison.trajectories.size() == 4);
   CHECK(comparison.has_driven_wall);
   for (const Trajectory& t : comparison.trajectories) {
@@ -71,20 +63,17 @@ TEST_CASE("One start under several backends and tolerances") {
   CHECK(distances(reference, reference).back() == 0.0);
   CHECK(loose > 0.0);
   CHECK(other_backend < loose);
-  // from the files now: the same
-  REQUIRE(again.trajectories.size() == 4);
-  for (size_t k = 0; k < 4; ++k)
-    CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
-  // a damaged one is made again
-  for (const auto& file : std::filesystem::directory_iterator(folder.path() / "trajectories"))
-    write_whole_file(file.path(), read_whole_file(file.path()).substr(0, 300));
-  {
-    const Silence silence;
-    again = run_live(options, [](const Trajectory&) { return true; });
-  }
-  for (size_t k = 0; k < 4; ++k) {
-    CHECK(again.trajectories[k].steps.size() == 20);
-    CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
+  // from the files the same, and damaged ones are made again
+  for (const bool are_damaged : {false, true}) {
+    if (are_damaged)
+      for (const auto& file : std::filesystem::directory_iterator(folder.path() / "trajectories"))
+        write_whole_file(file.path(), read_whole_file(file.path()).substr(0, 300));
+    const LiveComparison again = run();
+    REQUIRE(again.trajectories.size() == 4);
+    for (size_t k = 0; k < 4; ++k) {
+      CHECK(again.trajectories[k].steps.size() == 20);
+      CHECK(again.trajectories[k].positions.back() == comparison.trajectories[k].positions.back());
+    }
   }
 }
 
@@ -106,4 +95,120 @@ TEST_CASE("A trajectory is called after its solver, its limit and a law that is 
   CHECK(t.label() == "pgs 50 iterations");
   t.law = "convex";
   CHECK(t.label() == "pgs 50 iterations (convex)");
+}
+
+namespace {
+
+double number_of(const char* name, size_t trajectory, const LiveComparison& live) {
+  for (const LiveNumber& number : live_numbers())
+    if (std::string(name) == number.name) return number.of(live.trajectories[trajectory], live);
+  FAIL("no number " << name);
+  return 0.0;
+}
+
+const page::Picture* find_figure(const std::vector<page::Picture>& figures,
+                                 const std::string& name) {
+  for (const page::Picture& figure : figures)
+    if (figure.plot.name == name && !figure.plot.panels.empty()) return &figure;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("A trajectory comes to its means, its worst and its end") {
+  LiveComparison live = hand_made_live();
+  struct Expected {
+    const char* name;
+    double value;
+  };
+  for (const auto& [name, value] : {Expected{"error_mean", 1.5e-2},  // 1.5e-4 m/s over 1e-2 m/s
+                                    {"error_max", 2e-2},
+                                    {"missed", 0.5},  // the second of two steps
+                                    {"wall_x_end", 2.003e-3},
+                                    {"wall_force_mean", 15.0},
+                                    {"penetration_max", 2e-6},
+                                    {"kinetic_energy_end", 1.0},
+                                    {"energy_residual", 0.5},
+                                    {"solid_fraction_end", 0.6},
+                                    {"iterations_mean", 15.0},
+                                    {"solve_ms_per_step", 1.5},
+                                    {"ms_per_step", 1.5},
+                                    {"distance_end", 3e-6}}) {
+    INFO(name);
+    CHECK(number_of(name, 1, live) == Approx(value));
+    CHECK(std::isnan(number_of(name, 2, live)));  // it made no step
+  }
+  CHECK(number_of("missed", 0, live) == 0.0);
+  CHECK(number_of("distance_end", 0, live) == 0.0);
+  // without a driven wall or a reference nothing is said of them
+  live.has_driven_wall = false;
+  live.reference = -1;
+  for (const char* name : {"wall_x_end", "wall_force_mean", "distance_end"})
+    CHECK(std::isnan(number_of(name, 0, live)));
+  const auto figures = live_figures(live);
+  for (const char* name : {"live_wall", "live_wall_deviation", "live_force", "live_distance"})
+    CHECK(find_figure(figures, name) == nullptr);
+  CHECK(find_figure(figures, "live_error") != nullptr);
+}
+
+TEST_CASE("Tables of rows and of steps have a line for each") {
+  const LiveComparison live = hand_made_live();
+  const std::string csv = live_csv(live);
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 4);
+  CHECK(csv.find("\npgs,coulomb,0.1,complete,2,0.015,0.02,0,0.002,15,") != std::string::npos);
+  const std::string steps = steps_csv(live.trajectories[0]);
+  CHECK(std::count(steps.begin(), steps.end(), '\n') == 3);
+  CHECK(std::count(steps.begin(), steps.begin() + static_cast<long>(steps.find('\n')), ',') + 1 ==
+        static_cast<long>(step_columns().size()));
+}
+
+TEST_CASE("Every trajectory with something to show is a line") {
+  const auto figures = live_figures(hand_made_live());
+  const page::Picture* wall = find_figure(figures, "live_wall");
+  REQUIRE(wall);
+  const std::vector<Curve>& curves = wall->plot.panels[0].curves;
+  REQUIRE(curves.size() == 2);  // the third made no step
+  CHECK(curves[0].title == "pgs 0.1");
+  CHECK(curves[0].y == std::vector<double>{1.0, 2.0});  // mm
+  CHECK(curves[1].ink != curves[0].ink);
+  CHECK(curves[1].fineness < curves[0].fineness);  // tighter
+  CHECK(curves[0].opacity == 1.0);
+  const page::Picture* cost = find_figure(figures, "live_cost");
+  REQUIRE(cost);
+  CHECK(cost->plot.panels[0].curves[0].y[1] == Approx(3e-3));  // summed up
+  // distances and deviations are the others' from the reference
+  for (const char* name : {"live_distance", "live_wall_deviation"}) {
+    INFO(name);
+    const page::Picture* figure = find_figure(figures, name);
+    REQUIRE(figure);
+    REQUIRE(figure->plot.panels[0].curves.size() == 1);
+    const Curve& curve = figure->plot.panels[0].curves[0];
+    CHECK(curve.title == "nncg 0.015");
+    for (const double y : curve.y) CHECK(y == Approx(3.0));  // µm
+  }
+}
+
+TEST_CASE("The page of a closed loop says who was the reference, and what others' words were") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(write_live_page(folder.path(), hand_made_live()), Error);  // no manifest
+  Manifest("compare --live x", {}, "key").write(folder.path() / "manifest.json");
+  write_live_page(folder.path(), hand_made_live());
+  const std::string page = read_whole_file(folder.path() / "live.html");
+  check_page(without_scripts(page));
+  CHECK(page.find("(reference)") != std::string::npos);
+  CHECK(page.find("hand &amp; made") != std::string::npos);
+  CHECK(page.find("failed: &lt;no words&gt;") != std::string::npos);
+  const std::string csv = read_whole_file(folder.path() / "live.csv");
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 4);
+  CHECK(std::filesystem::exists(folder.path() / "steps-pgs_0_1.csv"));
+  if (!gnuplot_version().empty())
+    CHECK(page.find("<figure id=\"live_distance\"") != std::string::npos);
+}
+
+TEST_CASE("No two of twenty-four backends look alike") {
+  for (size_t a = 0; a < 24; ++a)
+    for (size_t b = 0; b < a; ++b) {
+      const Curve p = backend_curve(a, "p"), q = backend_curve(b, "q");
+      CHECK((p.ink != q.ink || p.dashed != q.dashed || p.width != q.width));
+    }
 }

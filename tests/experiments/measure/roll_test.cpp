@@ -1,6 +1,6 @@
 // A roll against shear and translation: fields whose circulation is known.
 
-#include "experiments/measure/roll.hpp"
+#include "experiments/measure/run_summary.hpp"
 
 #include <cmath>
 

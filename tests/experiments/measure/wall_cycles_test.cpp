@@ -66,18 +66,6 @@ TEST_CASE("whole periods after the transient count: 2 at 1 Hz, 3 at 5 Hz, 42 at 
   CHECK(count(5.0, 0.6) == 1);
 }
 
-TEST_CASE("the stroke of a swinging wall is its swing") {
-  const double size = 2e-3, frequency = 5.0;
-  const WallCycles cycles = wall_cycles(swinging(frequency, 1.0, 1e-4, size), frequency, 1e-4);
-  for (const WallPeriod& period : cycles.periods) {
-    CHECK(period.rise == Approx(size).epsilon(1e-4));
-    CHECK(period.net == Approx(0.0).margin(1e-12));
-    CHECK(period.speed_in == Approx(std::numbers::pi * frequency * size).epsilon(1e-4));
-    CHECK(period.speed_out == Approx(period.speed_in).epsilon(1e-9));
-    CHECK(period.x_after == Approx(0.0).margin(1e-9));
-  }
-}
-
 TEST_CASE("a frequency or a step that is not positive is refused") {
   const auto steps = swinging(5.0, 1.0, 1e-3, 1.0);
   CHECK_THROWS_AS(wall_cycles(steps, 0.0, 1e-3), std::invalid_argument);

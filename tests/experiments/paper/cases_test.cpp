@@ -141,8 +141,7 @@ TEST_CASE("C against its theory: the force that the grains push with gives it, p
     return 9.0 / (4.0 * M_PI * M_PI) * force * force * (1.0 + wall) / (wall + carried);
   };
   for (const RunRow* row : data.rows({"", {"mass"}}))
-    CHECK(theory_of(row->run) ==
-          Approx(theory(row->run.facts.wall_mass / row->run.facts.grain_mass)).epsilon(0.02));
+    CHECK(theory_of(*row) == Approx(theory((*row)["wall_mass_over_grains"])).epsilon(0.02));
   const PaperSection section = section_named(data, "theory");
   REQUIRE(section.figures.size() == 1);
   // ten frequencies, three masses of the wall beside the one that they share, five boxes twice

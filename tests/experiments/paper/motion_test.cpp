@@ -44,6 +44,16 @@ void add_box(MechanicalSystem& system, MotionState& state, const Vec3& size) {
   }
 }
 
+StoredState state_of(const MechanicalSystem& system, const MotionState& state,
+                     const std::vector<ContactPoint>& contacts, const std::vector<Vec3>& impulses,
+                     double h) {
+  StoredState stored{system, {}, h};
+  stored.at.state = state;
+  stored.at.memory.contacts = contacts;
+  stored.at.memory.impulses = impulses;
+  return stored;
+}
+
 ContactPoint contact(int a, int b, std::uint64_t feature, const Vec3& normal,
                      const Vec3& position) {
   return {a, b, feature, normal, position, 0.0};
@@ -57,13 +67,13 @@ TEST_CASE("points of one pair are one contact with the sum of their forces") {
       contact(0, 1, 1, n, Vec3(0, 0, 0)), contact(0, 1, 2, n, Vec3(0, 0, 1)),
       contact(0, 2, 1, n, Vec3::Zero()), contact(1, 2, 7, n, Vec3::Zero())};
   const std::vector<Vec3> impulses{Vec3(1, 0.5, 0), Vec3(3, 0, 0), Vec3::Zero(), Vec3(2, 0, 0)};
-  const auto pairs = pair_forces(contacts, impulses, 0.5);
+  const MechanicalSystem none;
+  const auto pairs = state_of(none, {}, contacts, impulses, 0.5).pairs();
   REQUIRE(pairs.size() == 2);  // the open one is left out
   CHECK(pairs[0].force.isApprox(Vec3(8, 1, 0)));
   CHECK(pairs[0].normal_force() == Approx(8.0));
   CHECK(pairs[0].position.isApprox(Vec3(0, 0, 0.75)));
   CHECK(pairs[1].body_a == 1);
-  CHECK_THROWS_AS(pair_forces(contacts, std::vector<Vec3>(1), 0.5), std::invalid_argument);
 }
 
 TEST_CASE("stress of a two-grain chain between two walls") {
@@ -77,8 +87,7 @@ TEST_CASE("stress of a two-grain chain between two walls") {
                                            contact(right, 1, 1, -Vec3::UnitX(), Vec3(4, 1, 1))};
   const std::vector<Vec3> impulses{Vec3(force * h, 0, 0), Vec3(force * h, 0, 0),
                                    Vec3(-force * h, 0, 0)};
-  const Mat3 stress =
-      stress_tensor(system, state, pair_forces(contacts, impulses, h), box_volume(system, state));
+  const Mat3 stress = state_of(system, state, contacts, impulses, h).stress();
   // a force of 10 N through the section of 4 m^2 everywhere
   CHECK(stress(0, 0) == Approx(2.5));
   CHECK((stress - 2.5 * Vec3::UnitX() * Vec3::UnitX().transpose()).norm() < 1e-12);
@@ -102,6 +111,6 @@ TEST_CASE("forces over their mean are those between grains, walls left out") {
                                            contact(1, 2, 1, Vec3::UnitX(), Vec3::Zero()),
                                            contact(3, 0, 1, Vec3::UnitX(), Vec3::Zero())};
   const std::vector<Vec3> impulses{Vec3(1, 0, 0), Vec3(3, 0.5, 0), Vec3(9, 0, 0)};
-  CHECK(relative_normal_forces(system, pair_forces(contacts, impulses, 1.0)) ==
+  CHECK(state_of(system, state, contacts, impulses, 1.0).relative_normal_forces() ==
         std::vector<double>{0.5, 1.5});
 }

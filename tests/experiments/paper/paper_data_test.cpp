@@ -32,9 +32,9 @@ Group group_of(double value, const std::vector<double>& rises, std::vector<RunRo
   Group group{value, "", {}};
   for (size_t k = 0; k < rises.size(); ++k) {
     RunRow& row = rows.emplace_back();
-    row.run.facts.seed = static_cast<int>(k) + 1;
-    row.run.facts.frequency = value;
-    row.run.rise.mean = rises[k];
+    row["seed"] = static_cast<double>(k + 1);
+    row["frequency"] = value;
+    row["rise"] = rises[k];
     group.samples.push_back(&row);
   }
   return group;
@@ -53,7 +53,7 @@ TEST_CASE("a row stands for its run: it is drawn as if it were there, and not ma
   const Groups groups = data.groups(frequencies, frequency_of);
   REQUIRE(groups.size() == 2);
   CHECK(groups[1].value == 20.0);
-  CHECK(groups[1].first().rise.mean == rows[1].run.rise.mean);
+  CHECK(rise_of(*groups[1].samples.front()) == rise_of(rows[1]));
   CHECK(data.missing("frequency") == "PARTIAL: 2 of 27 runs of frequency.");
   size_t planned = 0;
   for (const Plan& stage : stages_of(data, "frequency")) planned += stage.runs.size();
@@ -80,7 +80,7 @@ TEST_CASE("rows of another campaign are counted, and drawn where no run stands i
   std::vector<RunRow> rows = frequency_rows(there);
   for (RunRow& row : rows) {
     row.key += "0";
-    row.run.rise.mean = 7.0;
+    row["rise"] = 7.0;
   }
   written(here.path(), {"frequency"}, {}, [](const CampaignRun& run, const Scene& scene) {
     return is_first_sample(run, scene) && scene.drive.frequency == 5.0;
@@ -91,8 +91,8 @@ TEST_CASE("rows of another campaign are counted, and drawn where no run stands i
   const Groups groups = data.groups(frequencies, frequency_of);
   REQUIRE(groups.size() == 2);
   REQUIRE(groups[0].samples.size() == 1);
-  CHECK(groups[0].first().rise.mean != 7.0);
-  CHECK(groups[1].first().rise.mean == 7.0);
+  CHECK(rise_of(*groups[0].samples.front()) != 7.0);
+  CHECK(rise_of(*groups[1].samples.front()) == 7.0);
   CHECK(data.settings(frequencies).size() == 2);
 }
 

@@ -3,8 +3,12 @@
 
 #include <fstream>
 
-#include "experiments/paper/paper_report.hpp"
+#include "experiments/page/html.hpp"
+#include "experiments/page/markdown.hpp"
+#include "experiments/paper/sections.hpp"
+#include "tests/catch.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
+#include "tests/support/page_sample.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
@@ -28,7 +32,7 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
   CHECK_THAT(plain_words(row_of(sections, "C ~ 0.01").ballast),
              Catch::StartsWith("C = 0.0") && Catch::Contains("m all grains"));
   for (const RunRow& row : data.rows())
-    CHECK(prefactor_of(row.run) ==
+    CHECK(prefactor_of(row) ==
           Approx(PaperLaw{}.prefactor).epsilon(0.03));  // 41 steps in the fastest stroke
 }
 
@@ -71,4 +75,36 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
   // what was written is read again, and says the same
   const std::vector<RunRow> rows = read_runs_csv(folder.path() / "report/data/runs.csv");
   CHECK(rows.size() == data.rows().size());
+}
+
+TEST_CASE("both pages say the same words, and what was found stands before the sections") {
+  PaperSection section;
+  section.id = "fig9";
+  section.heading = "Figure 9 <again>";
+  section.notes = {"PARTIAL: 1 of 2"};
+  section.text = {page::marked("About *x*.")};
+  section.figures = {{.plot = {.name = "fig09", .title = "A title", .panels = {Panel{}}},
+                      .caption = {"what the paper says", "falls | too"},
+                      .files = page::Text("PDF", 0, "figures/fig09.pdf")}};
+  section.tables = {{"Means", {"ν", "a|b"}, {{"1", page::with_error(1.5, 0.25)}}}};
+  const Found sharp{.value = -2.0, .low = -2.01, .high = -1.99};
+  section.rows = {{"Fig. 9", "y", "no", PaperRange::exponent(1.0), sharp, Agreement::differs}};
+  section.findings = {{"beyond", "something"}};
+  PaperSection other = section;
+  other.id = "fig10";
+  other.figures.clear();
+  const page::Page page = paper_page({section, other}, {"1 of 2 runs are finished."});
+  const std::string html = html_of(page), markdown = markdown_of(page);
+  check_page(html);
+  for (const char* words :
+       {"PARTIAL: 1 of 2", "1 of 2 runs are finished.", "Means:", "1.50 ± 0.25", "Azéma"}) {
+    CHECK_THAT(html, Catch::Contains(words));
+    CHECK_THAT(markdown, Catch::Contains(words));
+  }
+  CHECK_THAT(markdown,
+             Catch::Contains("| Fig. 9 | y | DIFFERS | no | 0.9 … 1.1 | −2.00 [−2.01, −1.99"));
+  for (const auto& [place, id] : {std::pair(1, "agreement"), {2, "beyond"}}) {
+    REQUIRE(page.sections.at(place).id == id);
+    CHECK(std::get<page::Table>(page.sections[place].blocks.back()).rows.size() == 2);
+  }
 }

@@ -4,29 +4,20 @@
 
 using namespace ballast;
 
-TEST_CASE("a figure's data are its panels and curves, row by row") {
+TEST_CASE("a figure's data are its panels and curves, row by row; empty where nothing is known") {
   Figure figure;
   figure.panels.resize(1);
   figure.panels[0].x_label = "t, s";
   figure.panels[0].y_label = "x";
-  figure.panels[0].curves = {
-      curve_of(Points{{1.0, 2.0}, {3.0, 4.5}, {0.5, not_known}}, "", Ink::blue)};
-  CHECK(figure_csv(figure) ==
-        "panel,y_label,curve,x_label,x,y,y_error,y_low\n1,x,1,\"t, s\",1,3,0.5,\n"
-        "1,x,1,\"t, s\",2,4.5,0,\n");
-}
-
-TEST_CASE("what is not known is an empty cell, and an area has its lower bound") {
-  Figure figure;
-  figure.panels.resize(1);
   Curve area;
   area.x = {1.0, 2.0};
   area.y = {1.0 / 3.0, not_known};
   area.y_low = {0.0, 0.0};
-  figure.panels[0].curves = {area};
+  figure.panels[0].curves = {
+      curve_of(Points{{1.0, 2.0}, {3.0, 4.5}, {0.5, not_known}}, "", Ink::blue), area};
   CHECK(figure_csv(figure) ==
-        "panel,y_label,curve,x_label,x,y,y_error,y_low\n"
-        "1,,1,,1,0.3333333333,,0\n1,,1,,2,,,0\n");
+        "panel,y_label,curve,x_label,x,y,y_error,y_low\n1,x,1,\"t, s\",1,3,0.5,\n"
+        "1,x,1,\"t, s\",2,4.5,0,\n1,x,2,\"t, s\",1,0.3333333333,,0\n1,x,2,\"t, s\",2,,,0\n");
 }
 
 TEST_CASE("a function is drawn from end to end, evenly on its axis") {
@@ -76,4 +67,49 @@ TEST_CASE(
   REQUIRE(section.findings.size() == 1);
   CHECK(plain_words(section.findings[0].what) == "the curve bends");
   CHECK(section.rows.size() == 1);
+}
+
+TEST_CASE("the one rule of the verdicts, case by case") {
+  struct Judged {
+    PaperRange paper;
+    double value, half_width;
+    Agreement verdict;
+    double law_p = 0.5;
+    bool is_whole = true;
+  };
+  const PaperRange square = PaperRange::exponent(-2.0), bound = PaperRange::at_most(0.26);
+  using enum Agreement;
+  const Judged cases[] = {
+      // in the range and sharp agrees; wide, of a law that fails, or of a part: partly
+      {square, -1.93, 0.05, agrees},
+      {square, -1.93, 0.5, partly},
+      {square, -1.93, 0.05, partly, 1e-3},
+      {square, -1.93, 0.05, agrees, not_known},
+      {square, -1.93, 0.02, partly, 0.5, false},
+      // scatter is not rewarded: a value far off whose interval reaches the range is open
+      {square, -1.75, 0.01, partly},
+      {square, -1.5, 0.1, differs},
+      {square, -1.5, 0.6, reported},
+      {square, -1.93, not_known, reported},
+      // a bound is not widened
+      {bound, 0.2, 0.05, agrees},
+      {bound, 0.2, 0.1, partly},
+      {bound, 0.3, 0.01, differs},
+      {bound, 0.3, 0.1, reported},
+      {PaperRange::at_least(0.0), 1.0, 0.4, agrees}};
+  for (const Judged& c : cases) {
+    INFO(c.value << " ± " << c.half_width);
+    CHECK(agreement_of(c.paper, {c.value, c.value - c.half_width, c.value + c.half_width, c.law_p,
+                                 c.is_whole}) == c.verdict);
+  }
+  CHECK(found(SampleMean{1.0, 0.1, 3}).low == Approx(1.0 - 4.303 * 0.1).epsilon(1e-4));
+  CHECK(agreement_of(PaperRange::at_least(0.0), found(SampleMean{1.0, not_known, 1})) == reported);
+}
+
+TEST_CASE("ranges and findings in words") {
+  CHECK(plain_words(words_of(PaperRange::exponent(-2.0))) == "−2.1 … −1.9");
+  CHECK(plain_words(words_of(PaperRange::roughly(0.01))) == "0.007 … 0.013");
+  CHECK(plain_words(words_of(PaperRange::at_most(0.26))) == "≤ 0.26");
+  const Found found{.value = -1.7, .low = -1.74, .high = -1.66, .law_p = 1e-4};
+  CHECK(plain_words(words_of(found)) == "−1.70 [−1.74, −1.66]; the law misses the points");
 }

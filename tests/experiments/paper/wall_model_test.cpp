@@ -12,28 +12,21 @@ using namespace ballast;
 
 namespace {
 
-/// A wall that a load of 5 Hz lets out and presses in again.
-WallModel loose_packing() {
+WallModel model_of(const ExponentialFit& active, double passive_offset, double passive_slope,
+                   double wall_mass, const HarmonicLoad& load) {
   WallModel model;
-  model.active.amplitude = 100.0;
-  model.active.rate = 20.0;
-  model.passive.offset = 300.0;
-  model.passive.slope = -1e4;
-  model.wall_mass = 50.0;
-  model.load = {0.0, 1000.0, 5.0};
+  model.active = active;
+  model.passive.offset = passive_offset;
+  model.passive.slope = passive_slope;
+  model.wall_mass = wall_mass;
+  model.load = load;
   return model;
 }
 
 }  // namespace
 
 TEST_CASE("Eq. 2 with a constant force of the packing has the motion that can be written down") {
-  WallModel model;
-  model.active.amplitude = 100.0;
-  model.active.rate = 0.0;
-  model.passive.offset = 100.0;
-  model.passive.slope = 0.0;
-  model.wall_mass = 50.0;
-  model.load = {0.0, 1000.0, 5.0};
+  const WallModel model = model_of({100.0, 0.0}, 100.0, 0.0, 50.0, {0.0, 1000.0, 5.0});
   const ModelMotion motion = integrate(model);
   // m x'' = F - A + A sin wt from rest at t0 (A sin wt0 = A - F): v = ((F - A)(t - t0) - A (cos wt
   // - cos wt0)/w)/m
@@ -62,21 +55,15 @@ TEST_CASE("Eq. 2 with a constant force of the packing has the motion that can be
 }
 
 TEST_CASE("a wall under a load that never falls below the packing's force stays jammed") {
-  WallModel model;
-  model.active.amplitude = 10.0;
-  model.active.rate = 50.0;
-  model.passive.offset = 30.0;
-  model.passive.slope = -1e4;
-  model.wall_mass = 5.0;
-  model.load = {20.0, 100.0, 10.0};
-  const ModelMotion motion = integrate(model, 2000);
+  const ModelMotion motion =
+      integrate(model_of({10.0, 50.0}, 30.0, -1e4, 5.0, {20.0, 100.0, 10.0}), 2000);
   CHECK(motion.rise == 0.0);
   CHECK(motion.speed_in == 0.0);
   CHECK_FALSE(motion.jams);
 }
 
 TEST_CASE("the model comes back further in when the packing contracts") {
-  WallModel model = loose_packing();
+  WallModel model = model_of({100.0, 20.0}, 300.0, -1e4, 50.0, {0.0, 1000.0, 5.0});
   model.contraction = 1e-3;
   const ModelMotion motion = integrate(model);
   CHECK(motion.jams);

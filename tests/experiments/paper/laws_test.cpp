@@ -1,6 +1,6 @@
 // One curve through all that is varied, on laws that are known.
 
-#include "experiments/paper/one_curve.hpp"
+#include "experiments/paper/laws.hpp"
 
 #include <cmath>
 
@@ -24,8 +24,8 @@ Group group_of(double nu, double force, double g, double wall, const Law& law, R
                std::vector<RunRow>& rows) {
   Group group;
   for (int seed = 1; seed <= 3; ++seed) {
-    RunRow& row = rows.emplace_back();
-    RunFacts& facts = row.run.facts;
+    RunSummary run;
+    RunFacts& facts = run.facts;
     facts.seed = seed;
     facts.frequency = nu;
     facts.grain_mass = 100.0;
@@ -33,10 +33,11 @@ Group group_of(double nu, double force, double g, double wall, const Law& law, R
     facts.gravity = g;
     facts.f_max = force * 100.0 * 9.81;
     const double u = std::log(eq3_displacement(facts) / 0.03);
-    row.run.rise.mean = 0.03 * std::exp(law.prefactor + law.exponent * u + law.bend * u * u +
-                                        law.extra_force * std::log(force / 3.0) +
-                                        (g == 9.81 ? 0.0 : law.other_gravity) + 0.1 * (seed - 2) +
-                                        scatter * random.uniform(-1.7, 1.7));
+    run.rise.mean = 0.03 * std::exp(law.prefactor + law.exponent * u + law.bend * u * u +
+                                    law.extra_force * std::log(force / 3.0) +
+                                    (g == 9.81 ? 0.0 : law.other_gravity) + 0.1 * (seed - 2) +
+                                    scatter * random.uniform(-1.7, 1.7));
+    RunRow& row = rows.emplace_back(run);
     group.samples.push_back(&row);
   }
   return group;

@@ -1,6 +1,6 @@
 // Whatever a backend does to its process becomes a row, and nobody is believed without the judge.
 
-#include "experiments/compare/solve_child.hpp"
+#include "experiments/compare/comparison.hpp"
 
 #include <signal.h>
 
@@ -8,10 +8,13 @@
 #include <set>
 #include <thread>
 
+#include "platform/atomic_file.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/unsolvable.hpp"
+#include "tests/support/delassus_form.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
 
@@ -174,12 +177,8 @@ class Noting final : public Solver {
 };
 
 LoadedCase heavy_case(double mass_unit) {
-  KnownSolutionSettings settings;
-  settings.bodies = 10;
-  settings.contacts = 20;
-  settings.seed = 2;
-  settings.mass_ratio = 100.0;
-  settings.mass_unit = mass_unit;
+  const KnownSolutionSettings settings{
+      .bodies = 10, .contacts = 20, .mass_ratio = 100.0, .mass_unit = mass_unit, .seed = 2};
   return load_case(make_known_solution(settings).problem, 5.0);
 }
 
@@ -244,4 +243,30 @@ TEST_CASE("A backend that gives up says why, and one that only says so is not be
   lie.tolerance = 1e-6;
   solve_outside(misbehaving<Lie>, heavy_case(1.0), once, lie);
   CHECK(lie.verdict == Verdict::denied);
+}
+
+TEST_CASE("An exact answer is found, kept and judged anew") {
+  const KnownSolution known = make_known_solution({.bodies = 10, .contacts = 15, .seed = 2});
+  const TemporaryFolder folder;
+  const auto found = [&](const FrictionProblem& problem, double seconds) {
+    LoadedCase loaded = load_case(problem, 1.0);
+    find_exact(loaded, seconds, folder.path() / "exact");
+    return loaded.exact;
+  };
+  const Impulses exact = found(known.problem, 10.0);
+  CHECK(contact_error(known.problem, exact).within(1e-9));
+  Eigen::VectorXd u;
+  contact_velocity(known.problem, exact, u);
+  CHECK((u - known.u).norm() < 1e-6 * known.u.norm());
+  const auto file = std::filesystem::directory_iterator(folder.path() / "exact")->path();
+  const std::string bytes = read_whole_file(file);
+  // From its file; damaged, or of another problem, it is found again.
+  for (const std::string& kept : {bytes, bytes.substr(0, 20), std::string(bytes.size(), '\1')}) {
+    write_whole_file(file, kept);
+    CHECK(found(known.problem, 10.0) == exact);
+    CHECK(read_whole_file(file) == bytes);
+  }
+  CHECK(found(only_delassus(known.problem), 10.0).size() == exact.size());
+  CHECK(found(known.problem, 0.0).size() == 0);  // not looked for
+  CHECK(found(squeezed_contacts(), 0.2).size() == 0);
 }

@@ -7,15 +7,15 @@
 
 namespace ballast {
 
-/// One thing varied: its points have a colour, a mark and a row in every table.
+/// Points of one colour and mark, and a row of a table.
 struct Series {
   Selection selection;  ///< its name in words
-  RunMeasure along;     ///< what its exponent is of: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w)
-  const char* title;    ///< in the legend
   Ink ink;
-  MarkShape shape;  ///< as in the paper's Fig. 11
-  double exponent;  ///< of Eq. 3
+  MarkShape shape = MarkShape::circle;
+  RunMeasure along = nullptr;   ///< what is varied
+  const char* title = nullptr;  ///< in the legend
 };
+/// What Eq. 3 has: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11.
 std::span<const Series> all_series();
 
 struct CurvePoint {
