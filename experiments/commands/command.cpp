@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "experiments/run/build_info.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "solvers/solver_list.hpp"

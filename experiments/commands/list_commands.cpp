@@ -9,7 +9,6 @@
 
 #include "experiments/commands/command.hpp"
 #include "experiments/record/checkpoint.hpp"
-#include "experiments/run/build_info.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"

@@ -3,6 +3,7 @@
 set(COMMIT unknown)
 set(MODIFIED false)
 string(STRIP "${FLAGS}" FLAGS)
+string(REGEX REPLACE "([\\\"])" "\\\\\\1" FLAGS "${FLAGS}")  # as a text of JSON
 find_program(GIT git)
 # Only our own repository counts, not one that happens to lie around an unpacked archive.
 if(GIT AND EXISTS ${SOURCE}/.git)
@@ -17,6 +18,6 @@ if(GIT AND EXISTS ${SOURCE}/.git)
     endif()
   endif()
 endif()
-list(TRANSFORM LIBRARIES REPLACE "(.*)=(.*)" "{\"\\1\", \"\\2\"}")
+list(TRANSFORM LIBRARIES REPLACE "(.*)=(.*)" "\"\\1\": \"\\2\"")
 list(JOIN LIBRARIES ", " LIBRARIES)
 configure_file(${SOURCE}/experiments/run/build_info.cpp.in ${OUTPUT} @ONLY)

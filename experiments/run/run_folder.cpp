@@ -17,7 +17,6 @@
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/record/checkpoint.hpp"
 #include "experiments/record/recorder.hpp"
-#include "experiments/run/build_info.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -25,6 +24,8 @@
 namespace ballast {
 
 namespace fs = std::filesystem;
+
+const char* build_text();  // made by build_info.cmake
 
 namespace {
 
@@ -40,15 +41,7 @@ std::string utc_now() {
 }
 
 /// The program: version, commit, compiler, libraries.
-Json build_json() {
-  const BuildInfo& info = build_info();
-  Json json = {{"version", info.version},       {"commit", info.commit},
-               {"modified", info.modified},     {"compiler", info.compiler},
-               {"build_type", info.build_type}, {"flags", info.flags},
-               {"libraries", Json::object()}};
-  for (const auto& [name, version] : info.libraries) json["libraries"][name] = version;
-  return json;
-}
+Json build_json() { return Json::parse(build_text()); }
 
 /// The computer, and how busy it was when the run began.
 Json machine_json() {
@@ -68,6 +61,14 @@ Json machine_json() {
 }
 
 }  // namespace
+
+std::string build_line() {
+  const Json build = build_json();
+  const auto word = [&](const char* name) { return build.at(name).get<std::string>(); };
+  return "ballast " + word("version") + " (" + word("commit").substr(0, 12) +
+         (build.at("modified").get<bool>() ? ", modified" : "") + "), " + word("compiler") + ", " +
+         word("build_type");
+}
 
 std::string cpu_model() {
   std::ifstream file("/proc/cpuinfo");
@@ -112,11 +113,11 @@ Manifest Manifest::read(const fs::path& file) {
 }
 
 void Manifest::resumed(long step) {
-  const BuildInfo& info = build_info();
+  const Json build = build_json();
   (*json_)["resumed"].push_back(Json{{"step", step},
                                      {"at", utc_now()},
-                                     {"commit", info.commit},
-                                     {"modified", info.modified},
+                                     {"commit", build.at("commit")},
+                                     {"modified", build.at("modified")},
                                      {"cpu", cpu_model()}});
 }
 

@@ -2,7 +2,8 @@
 // The folder of one run: what is where, who may write into it, what it says about itself
 // (manifest.json), and the bodies of the run that it holds.
 //
-//   {"ballast":  {"version", "commit", "modified", "compiler", "build_type", "flags",
+//   {"ballast":  {"version", "commit": 40 digits or "unknown", "modified": true where tracked files
+//                 differed from it, "compiler", "build_type", "flags",
 //                 "libraries": {name: version}},
 //    "machine":  {"cpu", "cores", "memory_GB", "load_average": [1, 5, 15 min],
 //                 "environment": {name: value}},
@@ -26,6 +27,9 @@ namespace ballast {
 
 struct MechanicalSystem;
 struct MotionState;
+
+/// The program: "ballast 0.1.0 (0123456789ab, modified), GNU 12.2.0, Release".
+std::string build_line();
 
 /// The processor as the kernel names it; "unknown" where it doesn't (other architectures).
 std::string cpu_model();

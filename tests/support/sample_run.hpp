@@ -73,7 +73,6 @@ inline MechanicalSystem sample_system() {
     RigidBody wall;
     wall.name = names[w];
     wall.shape.plane.normal = normals[w];
-    wall.wall_friction = 0.0;
     if (w == 3) wall.mass = 107.0;
     system.bodies.push_back(wall);
   }

@@ -2,28 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/run/build_info.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/support/sample_run.hpp"
 
 using namespace ballast;
 namespace fs = std::filesystem;
-
-TEST_CASE("the build knows what it is") {
-  const BuildInfo& info = build_info();
-  CHECK(std::count(info.version.begin(), info.version.end(), '.') == 2);
-  CHECK((info.commit == "unknown" ||
-         (info.commit.size() == 40 &&
-          info.commit.find_first_not_of("0123456789abcdef") == std::string::npos)));
-  CHECK_THAT(info.flags, Contains("-ffp-contract=off"));
-  CHECK_FALSE(info.compiler.empty());
-  for (const auto& [name, version] : info.libraries) {
-    INFO(name << " " << version);
-    CHECK((!name.empty() && !version.empty() &&
-           version.find_first_not_of("0123456789.") == std::string::npos));
-  }
-  CHECK_THAT(build_line(), Contains(info.version) && Contains(info.commit.substr(0, 12)));
-}
 
 TEST_CASE("a manifest says what a run was made by and from, and is read back") {
   const TemporaryFolder folder;
@@ -38,8 +21,16 @@ TEST_CASE("a manifest says what a run was made by and from, and is read back") {
   CHECK(file_bytes(file) == manifest.text());
 
   const auto json = nlohmann::json::parse(file_bytes(file));
-  CHECK(json["ballast"]["commit"] == build_info().commit);
-  CHECK(json["ballast"]["libraries"].size() == build_info().libraries.size());
+  const auto& build = json["ballast"];
+  const std::string version = build["version"], commit = build["commit"], flags = build["flags"];
+  CHECK(std::count(version.begin(), version.end(), '.') == 2);
+  CHECK((commit == "unknown" ||
+         (commit.size() == 40 && commit.find_first_not_of("0123456789abcdef") == commit.npos)));
+  CHECK_THAT(flags, Contains("-ffp-contract=off"));
+  CHECK(build["libraries"].size() >= 5);
+  for (const std::string number : build["libraries"])
+    CHECK((!number.empty() && number.find_first_not_of("0123456789.") == number.npos));
+  CHECK_THAT(build_line(), Contains(version) && Contains(commit.substr(0, 12)));
   CHECK(json["machine"]["cores"] >= 1);
   CHECK(json["scene"] == "vibrated_box");
   CHECK(json["overrides"][0] == "solver.name=\"pgs\"");
@@ -72,13 +63,6 @@ TEST_CASE("a manifest that is none is refused with its name") {
   auto json = nlohmann::json::parse(Manifest("s", {}, "k").text());
   json["key"] = 5;
   CHECK_THAT(refusal(json.dump()), Contains("is no manifest") && Contains("'key'"));
-}
-
-TEST_CASE("where things are in a run's folder") {
-  const RunFolder folder("f");
-  CHECK(folder.checkpoint() == fs::path("f/checkpoint.bin"));
-  CHECK(folder.state_at(1234) == fs::path("f/states/step_00001234.bin"));
-  CHECK(folder.steps_log() == fs::path("f/log/steps.bin"));
 }
 
 namespace {
@@ -139,15 +123,6 @@ TEST_CASE("a folder with somebody's files is neither emptied nor mixed into") {
   Manifest("scene", {}, "key").write(folder.manifest());
   begin(folder, "scene");
   CHECK(folder.has_run());
-}
-
-TEST_CASE("a run is gone on with where there is one of the same settings") {
-  const TemporaryFolder place;
-  const RunFolder folder(place.path());
-  begin(folder, "scene");
-  folder.reopen("scene");
-  CHECK_THAT(run_error([&] { folder.reopen("another scene"); }),
-             Contains("holds a run of other settings"));
 }
 
 TEST_CASE("finished: all files, this key, and no steps left") {
