@@ -172,25 +172,6 @@ MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packin
   return box_system(scene, rain, BoxStage::drive, packing.deposit.lid);
 }
 
-namespace {
-
-/// deposit() with a line that says how far it is. When the rain will rest nobody knows.
-bool deposit_visibly(const Scene& scene, const Rain& rain, const fs::path& part,
-                     const PackingOrder& order, Packing& packing) {
-  Progress progress(order.style);
-  const double end[] = {std::numeric_limits<double>::quiet_NaN(), scene.deposit.lid_time,
-                        scene.deposit.settle_time};
-  const auto show = [&](BoxStage stage, double time, double velocity, const StepRecord& record) {
-    progress.show(name_of(stage), time, end[static_cast<int>(stage)], record, velocity);
-    return order.goes_on();
-  };
-  const bool is_done = deposit(scene, rain, part, show, packing);
-  progress.finish();
-  return is_done;
-}
-
-}  // namespace
-
 fs::path packing_file(const fs::path& cache, const std::string& key) {
   return (cache / ("packing-" + key + ".bin")).lexically_normal();
 }
@@ -220,7 +201,17 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   say("depositing " + std::to_string(rain.grains.size()) + " grains (kept in " + file.string() +
       ")");
   const Stopwatch watch;
-  if (!deposit_visibly(scene, rain, part, order, packing)) return false;
+  Progress progress(order.style);
+  // when the rain will rest nobody knows
+  const double end[] = {std::numeric_limits<double>::quiet_NaN(), scene.deposit.lid_time,
+                        scene.deposit.settle_time};
+  const auto show = [&](BoxStage stage, double time, double velocity, const StepRecord& record) {
+    progress.show(name_of(stage), time, end[static_cast<int>(stage)], record, velocity);
+    return order.goes_on();
+  };
+  const bool is_done = deposit(scene, rain, part, show, packing);
+  progress.finish();
+  if (!is_done) return false;
   write_checkpoint(file, packing);
   fs::remove(part);
   deposit_seconds = watch.seconds();

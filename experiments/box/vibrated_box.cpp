@@ -127,16 +127,16 @@ MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage
   const BoxSpec& box = scene.box;
   const double horizontal = deposits ? scene.deposit.friction : box.friction_horizontal;
   const double mass = system.mass_of_grains(), weight = mass * system.gravity.norm();
-  // the box as it stands, then what drives a wall of it in this stage
-  // A corner of the box is the origin, and normals point into the box. A wall's plane is normal.x =
+  // The box as it stands, in the order of BoxWall, then what drives a wall of it in this stage. A
+  // corner of the box is the origin, and normals point into the box. A wall's plane is normal.x =
   // offset: of x_max, at x = length, the normal is -x and the offset -length.
-  WallSpec walls[box_wall_count];
-  walls[wall_floor] = wall("floor", Vec3::UnitZ(), 0.0, horizontal);
-  walls[wall_lid] = wall("lid", -Vec3::UnitZ(), -lid, horizontal);
-  walls[wall_x_min] = wall("x_min", Vec3::UnitX(), 0.0, box.friction_vertical);
-  walls[wall_x_max] = wall("x_max", -Vec3::UnitX(), -box.length, box.friction_vertical);
-  walls[wall_y_min] = wall("y_min", Vec3::UnitY(), 0.0, box.friction_vertical);
-  walls[wall_y_max] = wall("y_max", -Vec3::UnitY(), -box.width, box.friction_vertical);
+  WallSpec walls[box_wall_count] = {
+      wall("floor", Vec3::UnitZ(), 0.0, horizontal),
+      wall("lid", -Vec3::UnitZ(), -lid, horizontal),
+      wall("x_min", Vec3::UnitX(), 0.0, box.friction_vertical),
+      wall("x_max", -Vec3::UnitX(), -box.length, box.friction_vertical),
+      wall("y_min", Vec3::UnitY(), 0.0, box.friction_vertical),
+      wall("y_max", -Vec3::UnitY(), -box.width, box.friction_vertical)};
   if (stage == BoxStage::press) {
     const double load = scene.deposit.lid_pressure_weight * weight;
     drive_by(walls[wall_lid], mass, {load, load, 0.0});
@@ -151,14 +151,12 @@ MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage
   return system;
 }
 
-/// Root of the grains' mean |v|^2 [m/s].
 double grain_rms_velocity(const MechanicalSystem& system, const MotionState& state) {
   double sum = 0.0;
   for (int b = 0; b < system.grain_count; ++b) sum += state.velocity[b].squaredNorm();
   return std::sqrt(sum / system.grain_count);
 }
 
-/// Height of the highest vertex of any grain [m].
 double packing_top(const MechanicalSystem& system, const MotionState& state) {
   double top = 0.0;
   for (int b = 0; b < system.grain_count; ++b)

@@ -99,9 +99,10 @@ ExitCode run_scene(RunRequest& request) {
   request.run.threads = std::min(request.run.threads, available_cores());
   const RunEnd end = run(request.run);
   ExitCode code = end.code;
-  if (end.has_record) show_results(end, request.run, request.with_page);
-  if (end.has_record && code == ExitCode::ok && !request.run.deposit_only)
+  if (code == ExitCode::ok && !request.run.deposit_only) {
+    show_results(end, request.run, request.with_page);
     code = tell_trust(end, request);
+  }
   if (end.code != ExitCode::ok)
     std::cerr << "ballast: " << request.run.scene
               << ": stopped before its end; --continue goes on with it" << std::endl;

@@ -95,16 +95,12 @@ struct Base {
   std::vector<std::string> set;
 };
 
-/// A scene's file is looked for where the plan is; a name stays one.
-std::string scene_from(const fs::path& plan_file, const std::string& text) {
-  const fs::path path(text);
-  const bool is_name = !path.has_parent_path() && path.extension() != ".toml";
-  return is_name ? text : (plan_file.parent_path() / path).lexically_normal().string();
-}
-
 Base read_base(TomlTable& table, const fs::path& file, Base base) {
-  const std::string scene = table.text("scene", "");
-  if (!scene.empty()) base.scene = scene_from(file, scene);
+  // a scene's file is looked for where the plan is; a name stays one
+  const fs::path scene = table.text("scene", "");
+  const bool is_path = scene.has_parent_path() || scene.extension() == ".toml";
+  if (!scene.empty())
+    base.scene = (is_path ? (file.parent_path() / scene).lexically_normal() : scene).string();
   for (std::string& text : table.texts("set")) base.set.push_back(std::move(text));
   return base;
 }
@@ -144,14 +140,12 @@ std::vector<Axis> read_axes(const toml::table& table, const char* key) {
 }
 
 /// 1 and 1.0 are the same value.
-bool same_value(const std::string& a, const std::string& b) {
-  const auto x = parsed_number(a), y = parsed_number(b);
-  return x && y ? *x == *y : a == b;
-}
-
 bool contains(const std::vector<std::string>& values, const std::string& value) {
-  return std::any_of(values.begin(), values.end(),
-                     [&](const std::string& v) { return same_value(v, value); });
+  const auto number = parsed_number(value);
+  return std::ranges::any_of(values, [&](const std::string& other) {
+    const auto its = parsed_number(other);
+    return number && its ? *number == *its : value == other;
+  });
 }
 
 /// Overrides for those members of a grid whose values are among these.

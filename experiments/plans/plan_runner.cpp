@@ -129,30 +129,6 @@ std::string plan_progress(const std::vector<Task>& tasks, double work_before, do
   return text;
 }
 
-namespace {
-
-Task run_task(const fs::path& results, const PlannedRun& run) {
-  Task task{.title = run.name,
-            .key = run.key,
-            .folder = run_folder(results, run),
-            .log = results / "logs" / (run.key + ".log"),
-            .arguments = run_arguments(results, run),
-            .steps = run.steps,
-            .work = run.work};
-  if (state_of(results, run) == "finished") task.state = TaskState::finished;
-  return task;
-}
-
-Task deposit_task(const fs::path& results, const PlannedRun& run) {
-  return {.title = "packing of " + run.name,
-          .key = run.packing,
-          .log = results / "logs" / ("packing-" + run.packing + ".log"),
-          .arguments = run_arguments(results, run, true),
-          .work = run.packing_work};
-}
-
-}  // namespace
-
 std::vector<Task> make_tasks(const fs::path& results, std::vector<PlannedRun> runs) {
   std::vector<Task> tasks;
   // Of deposits and of runs the longest come first, so that no long one is left for the end.
@@ -162,15 +138,26 @@ std::vector<Task> make_tasks(const fs::path& results, std::vector<PlannedRun> ru
     const bool needs_packing = !run.packing.empty() && state_of(results, run) != "finished" &&
                                !is_there(packing_file(packing_folder(results), run.packing));
     if (needs_packing && deposits.emplace(run.packing, tasks.size()).second)
-      tasks.push_back(deposit_task(results, run));
+      tasks.push_back({.title = "packing of " + run.name,
+                       .key = run.packing,
+                       .log = results / "logs" / ("packing-" + run.packing + ".log"),
+                       .arguments = run_arguments(results, run, true),
+                       .work = run.packing_work});
   }
   std::ranges::stable_sort(runs, std::greater(), &PlannedRun::work);
   std::set<std::string> seen;  // two names may be one run
   for (const PlannedRun& run : runs) {
     if (!seen.insert(run.key).second) continue;
-    Task& task = tasks.emplace_back(run_task(results, run));
-    const auto deposit = deposits.find(run.packing);
-    if (task.state != TaskState::finished && deposit != deposits.end())
+    Task& task = tasks.emplace_back(Task{.title = run.name,
+                                         .key = run.key,
+                                         .folder = run_folder(results, run),
+                                         .log = results / "logs" / (run.key + ".log"),
+                                         .arguments = run_arguments(results, run),
+                                         .steps = run.steps,
+                                         .work = run.work});
+    if (const auto deposit = deposits.find(run.packing); state_of(results, run) == "finished")
+      task.state = TaskState::finished;
+    else if (deposit != deposits.end())
       task.deposit = deposit->second;
   }
   return tasks;

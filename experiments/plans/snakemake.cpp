@@ -41,12 +41,16 @@ Json jobs_json(const std::vector<PlannedRun>& runs, const fs::path& results,
           {"runs", jobs}};
 }
 
-/// The slurm/ alone; makes the folder. Throws Error for a path that shells and Snakemake would take
-/// apart.
-void write_slurm_profile(const fs::path& folder) {
-  const bool is_plain =
-      folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") == std::string::npos;
-  if (!is_plain)
+}  // namespace
+
+void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::path& program,
+                     const fs::path& folder_given) {
+  const fs::path results = fs::absolute(results_given).lexically_normal(),
+                 folder = fs::absolute(folder_given).lexically_normal();
+  Plan absolute = plan;  // jobs begin elsewhere
+  for (PlannedRun& run : absolute.runs)
+    run.scene = fs::absolute(find_scene(run.scene)).lexically_normal();
+  if (folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") != std::string::npos)
     throw Error(folder.string() +
                 ": stands in commands for a shell and Snakemake: expected a path without blanks, "
                 "quotes and brackets");
@@ -57,18 +61,6 @@ void write_slurm_profile(const fs::path& folder) {
   write_whole_file(status, cluster_file("status.sh"));
   fs::permissions(status, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                   fs::perm_options::add);
-}
-
-}  // namespace
-
-void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::path& program,
-                     const fs::path& folder_given) {
-  const fs::path results = fs::absolute(results_given).lexically_normal(),
-                 folder = fs::absolute(folder_given).lexically_normal();
-  Plan absolute = plan;  // jobs begin elsewhere
-  for (PlannedRun& run : absolute.runs)
-    run.scene = fs::absolute(find_scene(run.scene)).lexically_normal();
-  write_slurm_profile(folder);
   for (const char* name : {"runs", "packings", "logs", "snakemake"}) create_folder(results / name);
   write_plan(absolute, folder / "plan.toml");
   const Json jobs = jobs_json(absolute.runs, results, program, folder);

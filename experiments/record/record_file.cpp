@@ -100,13 +100,6 @@ void add_system(Hdf5Writer& file, const MechanicalSystem& system) {
   });
 }
 
-void read_into(const Hdf5Reader& file, const char* name, std::vector<double>& values) {
-  values = file.read_doubles(name);
-}
-void read_into(const Hdf5Reader& file, const char* name, std::vector<std::int32_t>& values) {
-  values = file.read_ints(name);
-}
-
 /// Throws Error unless the group has so many rows of the layout.
 void require_rows(const Hdf5Reader& file, const RowLayout& layout, size_t rows) {
   for (const RowPart& part : layout.parts) {
@@ -359,7 +352,10 @@ MechanicalSystem read_record_system(const std::filesystem::path& path) {
   tables.name = file.read_texts("bodies/name");
   const size_t count = tables.name.size();
   tables.each([&](std::string_view name, auto& values, size_t columns, auto...) {
-    read_into(file, name.data(), values);
+    if constexpr (std::is_same_v<decltype(values), std::vector<double>&>)
+      values = file.read_doubles(name.data());
+    else
+      values = file.read_ints(name.data());
     if (name.starts_with("bodies") && values.size() != columns * count)
       file.fail("the datasets of /bodies do not fit together");
   });

@@ -11,17 +11,6 @@
 #include "platform/text.hpp"
 
 namespace ballast {
-namespace {
-
-long positive_number(std::string_view name, std::string_view text) {
-  const long value = parsed<long>(text).value_or(0);
-  if (value < 1)
-    throw std::invalid_argument(std::string(name) + "=" + std::string(text) +
-                                ": expected a whole number >= 1");
-  return value;
-}
-
-}  // namespace
 
 CaptureSettings CaptureSettings::parse(std::string_view text) {
   CaptureSettings settings;
@@ -36,7 +25,8 @@ CaptureSettings CaptureSettings::parse(std::string_view text) {
     const auto place = places.find(name);
     if (place == places.end())
       throw std::invalid_argument("'" + item + "': expected every=, steps=, from=, to= or also=");
-    *place->second = positive_number(name, item.substr(std::min(name.size() + 1, item.size())));
+    *place->second = parsed<long>(item.substr(std::min(name.size() + 1, item.size()))).value_or(0);
+    if (*place->second < 1) throw std::invalid_argument(item + ": expected a whole number >= 1");
     has_range = has_range || name == "from" || name == "to";
   }
   if (settings.every == 0 && !has_range)

@@ -14,30 +14,6 @@
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
-namespace {
-
-void note_box(const Scene& scene, const DepositState& deposit, PreparedRun& run,
-              Manifest& manifest) {
-  const double mass = run.system.mass_of_grains(), g = scene.gravity.norm();
-  // What the run's page and the campaign's figures scale with.
-  manifest.summary("grains", run.system.grain_count);
-  manifest.summary("grain_mass_kg", mass);
-  manifest.summary("weight_N", mass * g);
-  manifest.summary("f_max_N", scene.drive.f_max_over_weight * mass * g);
-  manifest.summary("wall_mass_kg", scene.drive.wall_mass_over_grains * mass);
-  manifest.summary("frequency_Hz", scene.drive.frequency);
-  manifest.summary("rain_time_s", deposit.rain_time);
-  manifest.summary("packing_top_m", deposit.top);
-  manifest.summary("lid_m", deposit.lid);
-  manifest.summary("rest_velocity_m_s", deposit.rest_velocity);
-  manifest.summary("solid_fraction_initial",
-                   run.control_volume->solid_fraction(run.system, run.state));
-  const auto& classes = scene.grains->distribution;
-  const auto smaller = [](const SizeClass& a, const SizeClass& b) { return a.size < b.size; };
-  manifest.summary("d_min_m", std::min_element(classes.begin(), classes.end(), smaller)->size);
-}
-
-}  // namespace
 
 bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manifest,
                  PreparedRun& run) {
@@ -50,7 +26,23 @@ bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manife
     run.system = drive_system(scene, rain, packing, run.state);
     run.memory = std::move(packing.memory);
     run.control_volume = box_control_volume(scene, packing.deposit.top);
-    note_box(scene, packing.deposit, run, manifest);
+    // What the run's page and the campaign's figures scale with.
+    const DepositState& deposit = packing.deposit;
+    const double mass = run.system.mass_of_grains(), g = scene.gravity.norm();
+    manifest.summary("grains", run.system.grain_count);
+    manifest.summary("grain_mass_kg", mass);
+    manifest.summary("weight_N", mass * g);
+    manifest.summary("f_max_N", scene.drive.f_max_over_weight * mass * g);
+    manifest.summary("wall_mass_kg", scene.drive.wall_mass_over_grains * mass);
+    manifest.summary("frequency_Hz", scene.drive.frequency);
+    manifest.summary("rain_time_s", deposit.rain_time);
+    manifest.summary("packing_top_m", deposit.top);
+    manifest.summary("lid_m", deposit.lid);
+    manifest.summary("rest_velocity_m_s", deposit.rest_velocity);
+    manifest.summary("solid_fraction_initial",
+                     run.control_volume->solid_fraction(run.system, run.state));
+    manifest.summary("d_min_m",
+                     std::ranges::min(scene.grains->distribution, {}, &SizeClass::size).size);
   } else {
     run.system = make_system(scene, run.state);
   }
@@ -87,10 +79,9 @@ class Run {
     if (options_.deposit_only) {
       end.code = deposit_only();
     } else if (!open_folder()) {
-      end.has_record = end.was_finished = true;
+      end.was_finished = true;
     } else {
       end.code = prepare() ? drive() : why_to_stop();
-      end.has_record = end.code == ExitCode::ok;
     }
     if (end.code != ExitCode::ok) tell_how_to_go_on(end.code);
     return end;

@@ -36,8 +36,7 @@ struct RunOptions {
 struct RunEnd {
   ExitCode code = ExitCode::ok;
   std::filesystem::path folder;  ///< of the run
-  bool has_record = false;       ///< the folder holds all of the run's steps
-  bool was_finished = false;     ///< it did so before: nothing was done
+  bool was_finished = false;     ///< all of its steps were there before: nothing was done
   bool has_grains = false;       ///< a vibrated box, not only single bodies
 };
 

@@ -14,21 +14,7 @@ void book(const SolverRun& earlier, SolverRun& run) {
   run.solve_seconds += earlier.solve_seconds;
 }
 
-/// Calls f(row) for every row of an island's contacts.
-template <class F>
-void for_rows(const FrictionProblem& problem, std::span<const int> contacts, F&& f) {
-  for (const int c : contacts)
-    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) f(row);
-}
-
 }  // namespace
-
-void ImpactLaw::split_bias(const FrictionProblem& problem, std::span<const double> rebound) {
-  // The bias holds the walls' motion and Newton's e u_N-. The latter can be scaled island by
-  // island once it is known apart.
-  newton_ = walls_ = problem.dynamics.bias;
-  for (int c = 0; c < problem.contact_count(); ++c) walls_[problem.row_begin[c]] -= rebound[c];
-}
 
 void ImpactLaw::set_bias(FrictionProblem& problem, std::span<const double> rebound) const {
   problem.dynamics.bias = newton_;
@@ -58,16 +44,17 @@ double ImpactLaw::lowered_to(const FrictionProblem& problem,
   int rows = 0;
   // With delta = r - r_0 and W symmetric, r_0 . W delta = delta . (u_0 - u_f): that is why the
   // slope needs delta . u_0 alone, and the curvature delta . (u - u_0).
-  for_rows(problem, contacts, [&](int row) {
-    const double r0 = inelastic_.r[row], r1 = rebounding_.r[row];
-    const double u0 = inelastic_.u[row], u1 = rebounding_.u[row];
-    inelastic -= 0.5 * r0 * (u0 + u_free_[row]);
-    rebounding -= 0.5 * r1 * (u1 + u_free_[row]);
-    slope += (r1 - r0) * u0;
-    curvature += (r1 - r0) * (u1 - u0);
-    impulse += r1 * r1 + r0 * r0;
-    ++rows;
-  });
+  for (const int c : contacts)
+    for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) {
+      const double r0 = inelastic_.r[row], r1 = rebounding_.r[row];
+      const double u0 = inelastic_.u[row], u1 = rebounding_.u[row];
+      inelastic -= 0.5 * r0 * (u0 + u_free_[row]);
+      rebounding -= 0.5 * r1 * (u1 + u_free_[row]);
+      slope += (r1 - r0) * u0;
+      curvature += (r1 - r0) * (u1 - u0);
+      impulse += r1 * r1 + r0 * r0;
+      ++rows;
+    }
   // Energies are known to the solves' errors times the impulses.
   const double error = inelastic_.error + rebounding_.error;
   const double known_to = 1e-9 * std::abs(inelastic) + error * std::sqrt(impulse * rows);
@@ -99,7 +86,10 @@ SolverRun ImpactLaw::solve(SolverRunner& runner, Solver& solver, FrictionProblem
   least_ = restitution_;
   if (std::none_of(rebound.begin(), rebound.end(), [](double x) { return x < 0.0; }))
     return runner.run(solver, problem, std::move(start), budget);
-  split_bias(problem, rebound);
+  // The bias holds the walls' motion and Newton's e u_N-. The latter can be scaled island by
+  // island once it is known apart.
+  newton_ = walls_ = problem.dynamics.bias;
+  for (int c = 0; c < problem.contact_count(); ++c) walls_[problem.row_begin[c]] -= rebound[c];
   islands_ = contact_islands(problem);
   scale_.assign(islands_.size(), 1.0);
 

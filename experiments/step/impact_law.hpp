@@ -41,7 +41,6 @@ class ImpactLaw {
     double error = 0.0;
   };
 
-  void split_bias(const FrictionProblem& problem, std::span<const double> rebound);
   void measure(FrictionProblem& problem, const SolverRun& run, const Eigen::VectorXd& v,
                Impact& impact) const;
   bool lower(const FrictionProblem& problem, bool give_up);

@@ -58,18 +58,15 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int
       reach_(system.bodies.size(), 0.0) {
   if (spec_.change_tolerance > 0.0)
     solver_ = make_change_stopped(std::move(solver_), {spec_.change_tolerance, spec_.change_every});
-  if (spec_.threads > 1) share_work(spec_.threads);
-}
-
-/// Detection, assembly, solution and judgement have the same bits whatever the number of threads.
-void TimeStepper::share_work(int threads) {
+  if (spec_.threads <= 1) return;
+  // Detection, assembly, solution and judgement have the same bits whatever the number of threads.
   constexpr int parts_of_thread = 4;  // work of parts is known beforehand only roughly
   team_ = std::make_unique<WorkerTeam>();
-  team_->resize(threads);
+  team_->resize(spec_.threads);
   solver_->use_team(team_.get());
   assembler_.use_team(team_.get());
   runner_.use_team(team_.get());
-  detector_.use_team(team_.get(), parts_of_thread * threads);
+  detector_.use_team(team_.get(), parts_of_thread * spec_.threads);
 }
 
 void TimeStepper::free_motion(const MotionState& state, double mid_time) {
@@ -134,7 +131,6 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
                                     std::move(impulses_), budget);
   require_finite(run, spec_.name, record.time);
   impulses_ = std::move(run.solved.impulses);
-  error_ = run.error;
   record.iterations = run.solved.iterations;
   record.error_rms = run.error.natural_map_rms;
   record.error_max = run.error.natural_map_max;

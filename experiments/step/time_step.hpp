@@ -47,12 +47,10 @@ class TimeStepper {
   /// The impulses from which its solution was begun, rows as in the problem.
   void warm_start(Impulses& rows) const { assembler_.to_rows(carried_, rows); }
   const DetectionCounters& detection_counters() const { return detector_.counters(); }
-  const ContactError& error() const { return error_; }
   /// For what is done between steps; null: there is one thread.
   WorkerTeam* team() const { return team_.get(); }
 
  private:
-  void share_work(int threads);
   void free_motion(const MotionState& state, double mid_time);
   void detect(const MotionState& mid, StepMemory& memory);
   void solve(StepMemory& memory, StepRecord& record);
@@ -75,7 +73,6 @@ class TimeStepper {
 
   FrictionProblem problem_;
   Impulses impulses_;
-  ContactError error_;
   MotionState mid_;
   std::vector<double> reach_;
   std::vector<ContactPoint> contacts_;

@@ -86,7 +86,7 @@ TEST_CASE("children die with a plan that is killed") {
   // the folder can be had again: nobody holds its lock
   const auto next = start_program(
       BALLAST_PROGRAM,
-      {"run", run.scene, "--set", run.overrides[0], "--output", folder_of(results, run).string(),
+      {"run", run.scene, "--set", run.overrides[0], "--output", run_folder(results, run).string(),
        "--packing-cache", (results / "packings").string(), "--continue", "--no-report",
        "--max-seconds", "0.2"},
       folder.path() / "next.log");

@@ -48,7 +48,7 @@ TEST_CASE("two processes give the bits of one, and what is finished is not run a
   CHECK(entries(one / "packings") == 2);  // shared by two runs each
   CHECK_FALSE(fs::exists(one / "plan.lock"));
 
-  const fs::path manifest = folder_of(one, plan.runs[0]) / "manifest.json";
+  const fs::path manifest = run_folder(one, plan.runs[0]) / "manifest.json";
   const auto written = fs::last_write_time(manifest);
   CHECK_THAT(run_plan_file(file, one).output,
              Catch::Contains("4 runs: 4 finished (4 of them before)"));
@@ -59,24 +59,6 @@ TEST_CASE("two processes give the bits of one, and what is finished is not run a
   CHECK(std::count(index.begin(), index.end(), '\n') == 5);
   CHECK_THAT(index, Catch::Contains("small,nu-drive.frequency=20-grains.seed=1," +
                                     plan.runs[0].key + ",finished,300,300,"));
-}
-
-TEST_CASE("another plan in the same results shares runs and stands in the same index") {
-  const TemporaryFolder folder;
-  const fs::path results = folder.path() / "results";
-  const std::string scene = "scene = \"incline\"\nset = [\"scene.duration=0.01\"]\n";
-  REQUIRE(run_plan_file(folder.write("a.toml", scene + "[[run]]\nname = \"x\"\n"), results)
-              .succeeded());
-  const ProgramResult other = run_plan_file(
-      folder.write(
-          "b.toml",
-          scene +
-              "[[run]]\nname = \"y\"\n[[run]]\nname = \"z\"\nset = [\"contact.friction=0.1\"]\n"),
-      results);
-  CHECK_THAT(other.output, Catch::Contains("2 runs: 2 finished (1 of them before)"));
-  CHECK(entries(results / "runs") == 2);
-  const std::string index = read_whole_file(results / "index.csv");
-  for (const char* row : {"\na,x,", "\nb,y,", "\nb,z,"}) CHECK_THAT(index, Catch::Contains(row));
 }
 
 TEST_CASE("a run that fails is reported and the others go on") {
@@ -92,8 +74,8 @@ set = ["drive.frequency=30"]
 )");
   const Plan plan = read_plan(file);
   const PlannedRun &restless = plan.runs[0], &taken = plan.runs[1];
-  fs::create_directories(folder_of(results, taken));
-  write_whole_file(folder_of(results, taken) / "scene.toml", "not what it should be\n");
+  fs::create_directories(run_folder(results, taken));
+  write_whole_file(run_folder(results, taken) / "scene.toml", "not what it should be\n");
 
   const ProgramResult result = run_plan_file(file, results, {"--jobs", "2"});
   CAPTURE(result.output, result.errors);
@@ -107,7 +89,7 @@ set = ["drive.frequency=30"]
   CHECK_THAT(read_whole_file(results / "index.csv"),
              Catch::Contains("restless," + restless.key + ",failed"));
 
-  fs::remove_all(folder_of(results, taken));  // mended: tried again
+  fs::remove_all(run_folder(results, taken));  // mended: tried again
   const ProgramResult again = run_plan_file(file, results, {"--only", "taken"});
   CHECK(again.succeeded());
   CHECK(is_finished(results, taken));
@@ -136,7 +118,7 @@ TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else runs
       folder.write("plan.toml", std::string(small_plan) +
                                     "[[run]]\nname = \"long\"\nset = [\"scene.duration=100\", "
                                     "\"record.checkpoint_seconds=1000\"]\n");
-  const fs::path run = folder_of(results, read_plan(file).runs[0]);
+  const fs::path run = run_folder(results, read_plan(file).runs[0]);
   const auto long_plan =
       start_program(BALLAST_PROGRAM,
                     {"plan", file.string(), "--output", results.string(), "--only", "long"}, log);

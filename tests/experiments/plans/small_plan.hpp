@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/plans/plan.hpp"
+#include "experiments/plans/plan_runner.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "tests/support/same_bits.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -25,19 +25,15 @@ vary."drive.frequency" = [20, 50]
 vary."grains.seed" = [1, 2]
 )";
 
-inline std::filesystem::path folder_of(const std::filesystem::path& results,
-                                       const PlannedRun& run) {
-  return results / "runs" / run.key;
-}
 inline bool is_finished(const std::filesystem::path& results, const PlannedRun& run) {
-  return RunFolder(folder_of(results, run)).is_finished(run.key);
+  return RunFolder(run_folder(results, run)).is_finished(run.key);
 }
 
 /// The bits of every run of a plan.
 inline std::vector<std::string> bits_of(const Plan& plan, const std::filesystem::path& results) {
   std::vector<std::string> bits;
   for (const PlannedRun& run : plan.runs) {
-    const std::filesystem::path folder = folder_of(results, run);
+    const std::filesystem::path folder = run_folder(results, run);
     bits.push_back(physics_of(folder) + state_of(folder));
   }
   return bits;

@@ -26,7 +26,7 @@ TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is 
     REQUIRE(list["runs"].contains(key));
     std::vector<std::string> words = list["runs"][key]["arguments"];
     CHECK(fs::path(words[1]).is_absolute());
-    CHECK(std::find(words.begin(), words.end(), folder_of(results, plan.runs[k]).string()) !=
+    CHECK(std::find(words.begin(), words.end(), run_folder(results, plan.runs[k]).string()) !=
           words.end());
     if (k > 0) continue;
     REQUIRE(ballast_program(words).succeeded());  // as a job would
@@ -36,21 +36,13 @@ TEST_CASE("a plan for a cluster: every run and packing is a job, and nothing is 
         fs::perms::none);
   CHECK_THROWS_WITH(write_snakemake(plan, results, BALLAST_PROGRAM, folder.path() / "with blank"),
                     Catch::Contains("with blank"));
-}
 
-TEST_CASE("the Snakefile's last rule asks the program whether all is finished") {
-  const TemporaryFolder folder;
-  const fs::path results = folder.path() / "results", jobs = folder.path() / "jobs";
-  const Plan plan{"one", {planned_run("a", "incline", {"scene.duration=0.005"})}};
-  write_snakemake(plan, results, BALLAST_PROGRAM, jobs);
-  const auto list = nlohmann::json::parse(read_whole_file(jobs / "runs.json"));
+  // the last rule asks the program whether all is finished
   CHECK(list["program"] == BALLAST_PROGRAM);
-  CHECK(list["packings"].empty());
-  const std::string snakefile = read_whole_file(jobs / "Snakefile");
-  CHECK_THAT(snakefile, Catch::Contains("PLAN[\"finish\"]"));
+  CHECK_THAT(read_whole_file(jobs / "Snakefile"), Catch::Contains("PLAN[\"finish\"]"));
   const ProgramResult finish = ballast_program(list["finish"]);
   CHECK(finish.succeeded());
-  CHECK_THAT(finish.output, Catch::Contains("1 runs: 1 finished (0 of them before)"));
+  CHECK_THAT(finish.output, Catch::Contains("4 runs: 4 finished (1 of them before)"));
   // the profile names this folder, and no mark is left to be filled in
   const std::string profile = read_whole_file(jobs / "slurm" / "config.yaml");
   CHECK_THAT(profile, Catch::Contains(jobs.string() + "/slurm/status.sh"));
