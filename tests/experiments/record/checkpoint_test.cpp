@@ -1,7 +1,6 @@
 #include "experiments/record/checkpoint.hpp"
 
 #include "platform/pack.hpp"
-#include "tests/support/file_size_limit.hpp"
 #include "tests/support/sample_run.hpp"
 
 using namespace ballast;
@@ -72,37 +71,18 @@ TEST_CASE("a checkpoint comes back to the last bit, and its bytes are these") {
   }
 }
 
-TEST_CASE("every defect of a checkpoint has its own message") {
+TEST_CASE("a checkpoint that does not fit together is refused with its name") {
+  // what else may be wrong with a sealed file: tests/platform/pack_test.cpp
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "checkpoint.bin";
   const auto refusal = [&] {
     const std::string message = run_error([&] { read_checkpoint(file); });
-    CHECK(message.rfind(file.string(), 0) == 0);
-    CHECK(message.find('\n') == std::string::npos);
+    CHECK(message.starts_with(file.string()));
     return message;
   };
   CHECK_THAT(refusal(), Contains("cannot open: No such file"));
-  CHECK_THAT(run_error([&] { read_checkpoint(folder.path()); }), Contains("cannot"));
-  write_checkpoint(file, sample_checkpoint(6));
-  const std::string whole = file_bytes(file);
-  const auto changed = [&](size_t at, char value) {
-    std::string bytes = whole;
-    bytes[at] = value;
-    return bytes;
-  };
-  const std::pair<std::string, const char*> files[] = {
-      {"", "is empty"},
-      {"solid ballast\nfacet normal 0 0 1\n", "is not a checkpoint"},
-      {whole.substr(0, whole.size() / 2), "is truncated"},
-      {whole + '\0', "bytes follow its end"},
-      {changed(8, 9), "has format 9, this program reads format 1"},
-      {changed(12, 1), "another byte order"},
-      {changed(100, static_cast<char>(whole[100] ^ 1)), "its checksum is wrong"}};
-  for (const auto& [bytes, message] : files) {
-    put_bytes(file, bytes);
-    CHECK_THAT(refusal(), Contains(message));
-  }
-  // whole files whose lists do not fit each other
+  put_bytes(file, "solid ballast\nfacet normal 0 0 1\n");
+  CHECK_THAT(refusal(), Contains("is not a checkpoint"));
   void (*const changes[])(Checkpoint&) = {[](Checkpoint& c) { c.state.velocity.pop_back(); },
                                           [](Checkpoint& c) { c.state.spin.pop_back(); },
                                           [](Checkpoint& c) { c.memory.impulses.pop_back(); }};
@@ -114,22 +94,4 @@ TEST_CASE("every defect of a checkpoint has its own message") {
   }
   write_bytes(file, sample_checkpoint(4), {2.0, 1.0, 3.0});
   CHECK_THAT(refusal(), Contains("a list has a wrong length"));
-}
-
-TEST_CASE("a checkpoint that cannot be written leaves the old one") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "checkpoint.bin";
-  write_checkpoint(file, sample_checkpoint(1));
-  SECTION("a full disk") {
-    fs::create_symlink("/dev/full", file.string() + ".tmp");
-    CHECK_THAT(run_error([&] { write_checkpoint(file, sample_checkpoint(9)); }),
-               Contains(file.string()) && Contains("No space left"));
-  }
-  SECTION("a file that cannot grow") {
-    const FileSizeLimit limit(512);
-    CHECK_THAT(run_error([&] { write_checkpoint(file, sample_checkpoint(9)); }),
-               Contains(file.string()) && Contains("File too large"));
-  }
-  CHECK(same_bits(read_checkpoint(file), sample_checkpoint(1)));
-  CHECK_FALSE(fs::exists(file.string() + ".tmp"));
 }

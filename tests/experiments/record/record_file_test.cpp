@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "platform/program.hpp"
 #include "platform/hdf5_file.hpp"
+#include "platform/program.hpp"
 #include "tests/experiments/record/sample_record.hpp"
 #include "tests/support/hdf5_attribute.hpp"
 
@@ -192,20 +192,16 @@ TEST_CASE("quantities of rows become datasets, more rows than are gathered at on
       fits = fits && square[4 * k + i] == first + 1 + static_cast<double>(i);
   }
   CHECK(fits);
-}
-
-TEST_CASE("rows that are longer than what is gathered, and none at all") {
-  const TemporaryFolder folder;
-  const fs::path log = folder.path() / "rows", record = folder.path() / "a.h5";
-  for (const long rows : {0L, 3L}) {
-    write_log(log, rows, 200000);
-    RowReader reader(log);
-    Hdf5Writer writer(record, Hdf5Storage::compressed);
-    add_rows(writer, reader, {"rows", {{"all", {100000, 2}}}});
-    writer.commit();
+  // rows that are longer than what is gathered, and none at all
+  for (const long count : {0L, 3L}) {
+    write_log(log, count, 200000);
+    RowReader long_rows(log);
+    Hdf5Writer other(record, Hdf5Storage::compressed);
+    add_rows(other, long_rows, {"rows", {{"all", {100000, 2}}}});
+    other.commit();
     const std::vector<double> all = Hdf5Reader(record).read_doubles("rows/all");
-    REQUIRE(all.size() == static_cast<size_t>(rows) * 200000);
-    if (rows > 0) CHECK(all.back() == 20.0 + 199999.0);
+    REQUIRE(all.size() == static_cast<size_t>(count) * 200000);
+    if (count > 0) CHECK(all.back() == 20.0 + 199999.0);
   }
 }
 

@@ -10,11 +10,22 @@
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
 #include "tests/support/delassus_form.hpp"
-#include "tests/support/pressed_wall.hpp"
 
 using namespace ballast;
 
 namespace {
+
+/// A wall of 2 kg that would move at 1 m/s into a stop: 2 N s hold it.
+FrictionProblem pressed_wall() {
+  FrictionProblem problem;
+  problem.has_dynamics = true;
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+  const int wall = problem.dynamics.add_body(2.0 * one);
+  problem.add_contact(-1, wall, 0.0, {}, one);
+  problem.dynamics.v_free = Eigen::VectorXd::Constant(1, -1.0);
+  problem.dynamics.bias = Eigen::VectorXd::Zero(1);
+  return problem;
+}
 
 /// Every measure from the definitions in the header, contact by contact: with the bits of the judge
 /// where it does not share its work (up to 64 contacts). `lambda`: 1/rho of each contact.
