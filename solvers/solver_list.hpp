@@ -21,7 +21,9 @@ struct SolverEntry {
   ContactLaw law;
   SolverMaker make;  ///< null: built without the library it needs
   Library needs = {};
-  SizeLimit largest = {};  ///< what it promises to take
+  /// Contacts of the largest problems that it promises to take, as it keeps dense matrices; more it
+  /// may decline (UnsupportedProblem). 0: of any size.
+  int largest = 0;
 };
 
 std::span<const SolverEntry> solver_list();

@@ -26,10 +26,9 @@ namespace fs = std::filesystem;
 
 void print_solvers() {
   std::cout << printed("%-18s%-19s%-7s%-10s", "name", "law", "built", "largest")
-            << "what it is (largest: contacts with friction that it takes)\n";
+            << "what it is (largest: contacts that it takes)\n";
   for (const SolverEntry& entry : solver_list()) {
-    const std::string largest =
-        entry.largest.none() ? "any" : std::to_string(entry.largest.with_friction);
+    const std::string largest = entry.largest == 0 ? "any" : std::to_string(entry.largest);
     std::cout << printed("%-18s%-19s%-7s%-10s", entry.name, name_of(entry.law),
                          entry.make ? "yes" : "no", largest.c_str())
               << entry.description;

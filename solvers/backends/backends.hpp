@@ -111,7 +111,7 @@ std::unique_ptr<Solver> make_newton_burst(bool begins_with_sweeps = true);
 /// the directions it ends as `stalled`, and own_residual [m/s] says how well its own law is met. An
 /// iteration is a pivot; before the last one there is no iterate, and a limit returns the start.
 std::unique_ptr<Solver> make_pyramid_lemke();
-inline constexpr SizeLimit pyramid_lemke_limit{.contacts = 100, .with_friction = 100};
+inline constexpr int pyramid_lemke_limit = 100;  ///< contacts
 
 // With libraries that a build may do without: where one is missing, has_..() is false and its
 // makers give null (missing.cpp).
@@ -129,7 +129,7 @@ bool has_ipopt();
 /// An iteration is one evaluation of the objective.
 std::unique_ptr<Solver> make_nlopt();
 bool has_nlopt();
-inline constexpr SizeLimit nlopt_limit{.contacts = 60, .with_friction = 60};
+inline constexpr int nlopt_limit = 60;  ///< contacts
 
 /// Siconos' numerics (https://nonsmooth.gricad-pages.univ-grenoble-alpes.fr/siconos): the field's
 /// reference, solvers of its FrictionContactProblem  u = W r + q, mu. Its own formulas are in

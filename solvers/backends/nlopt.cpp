@@ -48,9 +48,9 @@ void cones(unsigned m, double* result, unsigned n, const double* x, double* grad
 class Nlopt final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
-    if (!nlopt_limit.admits(problem))
+    if (problem.contact_count() > nlopt_limit)
       throw UnsupportedProblem("nlopt_slsqp: " + std::to_string(problem.contact_count()) +
-                               " contacts; at most " + std::to_string(nlopt_limit.contacts) +
+                               " contacts; at most " + std::to_string(nlopt_limit) +
                                " (a dense quadratic program per step)");
     cones_.take(problem);
   }

@@ -256,7 +256,7 @@ class PyramidLemke final : public Solver {
   /// Directions of friction per contact; their hull is inside the circle.
   static constexpr int sides = 8;
   static constexpr int unknowns_per_contact = sides + 2;  ///< with friction; 1 without
-  static constexpr int most_unknowns = unknowns_per_contact * pyramid_lemke_limit.contacts;
+  static constexpr int most_unknowns = unknowns_per_contact * pyramid_lemke_limit;
 
   MovingContacts moving_;
   std::vector<int> begin_;  ///< unknowns of each contact

@@ -148,20 +148,6 @@ class Solver {
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;
 };
 
-/// What a backend that keeps dense matrices promises: it takes every problem with at most so many
-/// contacts, and so many with friction among them. Beyond that it may decline (UnsupportedProblem).
-/// Zeros: it takes problems of any size.
-struct SizeLimit {
-  int contacts = 0;
-  int with_friction = 0;  ///< contacts with mu > 0
-
-  bool none() const { return contacts == 0; }
-  bool admits(const FrictionProblem& problem) const;
-};
-
-/// Contacts with mu > 0.
-int contacts_with_friction(const FrictionProblem& problem);
-
 /// Makes one backend, with the settings that its row in the list stands for.
 using SolverMaker = std::unique_ptr<Solver> (*)();
 

@@ -27,22 +27,6 @@ TEST_CASE("what is left of a budget is never less than nothing, and the rest of 
   CHECK(whole.after(11, 3.0).max_seconds == 0.0);
 }
 
-TEST_CASE("a limit of size admits both counts up to itself, and no limit everything") {
-  const auto with = [](std::vector<double> friction) {
-    FrictionProblem problem;
-    problem.friction = std::move(friction);
-    return problem;
-  };
-  const SizeLimit limit{.contacts = 3, .with_friction = 1};
-  CHECK_FALSE(limit.none());
-  CHECK(limit.admits(with({})));
-  CHECK(limit.admits(with({0.0, 0.5, 0.0})));
-  CHECK_FALSE(limit.admits(with({0.0, 0.0, 0.0, 0.0})));
-  CHECK_FALSE(limit.admits(with({0.5, 1e-9})));
-  CHECK(SizeLimit{}.none());
-  CHECK(SizeLimit{}.admits(with(std::vector<double>(5000, 0.5))));
-}
-
 // Siconos' measure as a reason to stop: the judge's number, looked at when it may matter.
 
 TEST_CASE("it is reached where the judge says so, and aims at the natural map of that place") {
