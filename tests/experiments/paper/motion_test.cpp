@@ -19,7 +19,6 @@ MechanicalSystem points_at(const std::vector<Vec3>& places, MotionState& state) 
   for (const Vec3& place : places) {
     RigidBody body;
     body.mass = 2.0;
-    body.wall_friction = 0.5;  // without a shape it counts as a wall
     system.bodies.push_back(body);
     Pose pose;
     pose.position = place;
@@ -35,9 +34,7 @@ void add_box(MechanicalSystem& system, MotionState& state, const Vec3& size) {
   const std::vector<Vec3> places{Vec3::Zero(),         Vec3(0, 0, size.z()), Vec3::Zero(),
                                  Vec3(size.x(), 0, 0), Vec3::Zero(),         Vec3(0, size.y(), 0)};
   for (const Vec3& place : places) {
-    RigidBody wall;
-    wall.wall_friction = 0.5;
-    system.bodies.push_back(wall);
+    system.bodies.emplace_back();  // without a shape it counts as a wall
     Pose pose;
     pose.position = place;
     state.pose.push_back(pose);
