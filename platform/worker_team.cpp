@@ -48,7 +48,6 @@ void WorkerTeam::resize(int threads) {
   stop();
   members_ = threads;
   shares_ = std::make_unique<Share[]>(static_cast<size_t>(threads));
-  patience_ = TeamPatience();
   // Taken here, not by the thread: one that starts late must not miss the first round.
   const Marked seen = task_.round.load();
   for (int member = 1; member < threads; ++member)
@@ -80,12 +79,8 @@ void WorkerTeam::start(int parts, Call call, const void* context) {
     bell_.notify_all();
   }
   // The caller's own parts, then those that the others have not begun.
-  const Stopwatch watch;
   for (int member = 0; member < members_; ++member) do_parts(member, round);
-  const auto is_done = [&] { return left_.load(std::memory_order_acquire) == 0; };
-  if (wait_awake(watch.seconds() + TeamPatience::late, is_done)) return patience_.note(false);
-  patience_.note(true);
-  wait_awake(1e30, is_done);
+  wait_awake(1e30, [&] { return left_.load(std::memory_order_acquire) == 0; });
 }
 
 /// Those of `member`'s parts that nobody has taken yet: member, member + members, member +

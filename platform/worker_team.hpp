@@ -2,7 +2,6 @@
 // A few threads that wait close by: for loops of some ten microseconds, thousands of times a
 // second.
 
-#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -14,46 +13,9 @@ namespace ballast {
 /// Cores on which this process may run, at least 1.
 int available_cores();
 
-/// Told after each round of a team whether somebody was late, it says whether the caller had better
-/// do the next ones alone. Each lateness doubles the number of rounds alone, many good rounds halve
-/// it: on a busy machine the team is tried rarely enough to cost little, on a free one it works.
-class TeamPatience {
- public:
-  /// Waiting for the others' last parts for so much longer than one's own took is late [s]: shorter
-  /// than the kernel's slice for another program.
-  static constexpr double late = 2e-4;
-
-  /// Asked before each round.
-  bool works_alone() {
-    if (alone_ == 0) return false;
-    --alone_;
-    return true;
-  }
-
-  /// After a round that was worked together.
-  void note(bool was_late) {
-    if (was_late) {
-      next_ = std::min(2 * next_, most);
-      alone_ = next_;
-      good_ = 0;
-    } else if (++good_ == good_rounds) {
-      next_ = std::max(next_ / 2, least);
-      good_ = 0;
-    }
-  }
-
- private:
-  static constexpr int least = 32, most = 32768, good_rounds = 256;
-
-  int alone_ = 0;     // rounds that are still to be worked alone
-  int next_ = least;  // half of what the next lateness will cost
-  int good_ = 0;      // rounds in time, one after another
-};
-
 /// The caller is the first member; the others spin for a short while between two tasks, then sleep.
 /// Each member has parts of its own; what one that comes late (another program has its core) has
-/// not begun is done by the others, and where members are late again and again the caller works
-/// alone for a while (TeamPatience). Which thread does a part makes no difference to it.
+/// not begun is done by the others. Which thread does a part makes no difference to it.
 class WorkerTeam {
  public:
   WorkerTeam() = default;
@@ -69,7 +31,7 @@ class WorkerTeam {
   /// `task` must not throw.
   template <typename Task>
   void run(int parts, const Task& task) {
-    if (members_ == 1 || parts < 2 || patience_.works_alone()) {
+    if (members_ == 1 || parts < 2) {
       for (int part = 0; part < parts; ++part) task(part);
       return;
     }
@@ -111,7 +73,6 @@ class WorkerTeam {
   alignas(64) std::atomic<int> asleep_{0};
   std::atomic<std::uint32_t> bell_{0};  // what they sleep on
   std::atomic<bool> ends_{false};       // one who is late for a round reads it while stop() sets it
-  TeamPatience patience_;
 };
 
 /// Of no team the caller is the only member.

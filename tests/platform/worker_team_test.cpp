@@ -1,5 +1,6 @@
 #include "platform/worker_team.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <set>
 #include <thread>
@@ -104,44 +105,4 @@ TEST_CASE("a team grows, shrinks and sleeps between two tasks") {
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(20));  // they sleep by now
   CHECK(visits(&team, 9, 20) == std::vector<int>(9, 20));
-}
-
-namespace {
-
-/// Rounds that are worked alone before the team is asked again.
-int rounds_alone(TeamPatience& patience) {
-  int rounds = 0;
-  while (patience.works_alone()) ++rounds;
-  return rounds;
-}
-
-}  // namespace
-
-TEST_CASE("a team that is in time works together, always") {
-  TeamPatience patience;
-  for (int round = 0; round < 1000; ++round) {
-    CHECK_FALSE(patience.works_alone());
-    patience.note(false);
-  }
-}
-
-TEST_CASE(
-    "each lateness doubles the rounds alone, up to a limit, and good rounds bring them down") {
-  TeamPatience patience;
-  patience.note(true);
-  int before = rounds_alone(patience);
-  CHECK(before > 0);
-  for (int k = 0; k < 5; ++k) {
-    patience.note(true);
-    CHECK(rounds_alone(patience) == 2 * before);
-    before *= 2;
-  }
-  for (int k = 0; k < 30; ++k) {
-    patience.note(true);
-    before = rounds_alone(patience);
-  }
-  CHECK(before < 100000);
-  for (int round = 0; round < 100000; ++round) patience.note(false);
-  patience.note(true);
-  CHECK(rounds_alone(patience) < before / 100);
 }
