@@ -25,16 +25,19 @@
 namespace ballast {
 namespace {
 
-ExitCode collect(const std::filesystem::path& output, int largest) {
+ExitCode collect(const std::filesystem::path& output, int most_grains) {
   require_own_folder(output, {"runs", "packings"});
   InterruptGuard guard;
-  const auto runs = collection_runs(largest);
-  size_t done = 0;
-  const auto told = [&](const CollectedRun& run) {
-    std::cout << printed("%3zu/%zu  ", ++done, runs.size()) << run.name << std::endl;
+  const auto runs = collection_runs(most_grains);
+  size_t number = 0;
+  const auto announce = [&](const CollectedRun& run) {
+    std::cout << printed("%3zu/%zu  ", ++number, runs.size()) << run.name << std::endl;
   };
-  const ExitCode code = make_collection(output, runs, told);
-  if (code != ExitCode::ok) return code;
+  const ExitCode code = make_collection(output, runs, announce);
+  if (code != ExitCode::ok) {
+    std::cerr << "ballast: compare collect: stopped; the same command goes on" << std::endl;
+    return code;
+  }
   std::cout << "made: " << (output / "problems" / "manifest.csv").string() << std::endl;
   return ExitCode::ok;
 }

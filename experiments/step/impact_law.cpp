@@ -19,15 +19,16 @@ void book(const SolverRun& earlier, SolverRun& run) {
 void ImpactLaw::set_bias(FrictionProblem& problem, std::span<const double> rebound) const {
   problem.dynamics.bias = newton_;
   for (size_t i = 0; i < islands_.size(); ++i) {
-    if (scale_[i] == 1.0) continue;
+    if (e_factor_[i] == 1.0) continue;
     for (const int c : islands_[i]) {
       const int row = problem.row_begin[c];
-      problem.dynamics.bias[row] = walls_[row] + scale_[i] * rebound[c];
+      problem.dynamics.bias[row] = walls_[row] + e_factor_[i] * rebound[c];
     }
   }
 }
 
-/// `v`: the bodies' velocities that the judge found. Leaves the walls' part alone in the bias.
+/// `v`: the bodies' velocities that the judge found. Afterwards the bias holds only the walls'
+/// part.
 void ImpactLaw::measure(FrictionProblem& problem, const SolverRun& run, const Eigen::VectorXd& v,
                         Impact& impact) const {
   impact.r = run.solved.impulses;
@@ -37,12 +38,12 @@ void ImpactLaw::measure(FrictionProblem& problem, const SolverRun& run, const Ei
 }
 
 /// The factor by which the island's scale must fall; 1 where it takes enough energy.
-double ImpactLaw::lowered_to(const FrictionProblem& problem,
-                             const std::vector<int>& contacts) const {
+double ImpactLaw::lowering_factor(const FrictionProblem& problem,
+                                  const std::vector<int>& contacts) const {
   // L_0 and L, and along r_0 + t (r - r_0): L(t) = L_0 - slope t - curvature t^2 / 2.
   double inelastic = 0.0, rebounding = 0.0, slope = 0.0, curvature = 0.0, impulse = 0.0;
   int rows = 0;
-  // With delta = r - r_0 and W symmetric, r_0 . W delta = delta . (u_0 - u_f): that is why the
+  // With delta = r - r_0 and W symmetric, r_0 . W delta = delta . (u_0 - u_free): that is why the
   // slope needs delta . u_0 alone, and the curvature delta . (u - u_0).
   for (const int c : contacts)
     for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) {
@@ -66,15 +67,15 @@ double ImpactLaw::lowered_to(const FrictionProblem& problem,
   return std::clamp((root - slope) / curvature, 0.0, 0.95);
 }
 
-/// True when some island's scale fell: it must be solved again.
-bool ImpactLaw::lower(const FrictionProblem& problem, bool give_up) {
+/// True when some island's e fell: the whole problem must be solved again.
+bool ImpactLaw::lower_restitution(const FrictionProblem& problem, bool to_zero) {
   bool fell = false;
   for (size_t i = 0; i < islands_.size(); ++i) {
-    if (scale_[i] == 0.0) continue;
-    const double factor = lowered_to(problem, islands_[i]);
+    if (e_factor_[i] == 0.0) continue;
+    const double factor = lowering_factor(problem, islands_[i]);
     if (factor == 1.0) continue;
-    scale_[i] *= give_up ? 0.0 : factor;
-    least_ = std::min(least_, scale_[i] * restitution_);
+    e_factor_[i] *= to_zero ? 0.0 : factor;
+    least_ = std::min(least_, e_factor_[i] * restitution_);
     fell = true;
   }
   return fell;
@@ -91,7 +92,7 @@ SolverRun ImpactLaw::solve(SolverRunner& runner, Solver& solver, FrictionProblem
   newton_ = walls_ = problem.dynamics.bias;
   for (int c = 0; c < problem.contact_count(); ++c) walls_[problem.row_begin[c]] -= rebound[c];
   islands_ = contact_islands(problem);
-  scale_.assign(islands_.size(), 1.0);
+  e_factor_.assign(islands_.size(), 1.0);
 
   // The inelastic impact, for what it takes.
   problem.dynamics.bias = walls_;
@@ -104,7 +105,7 @@ SolverRun ImpactLaw::solve(SolverRunner& runner, Solver& solver, FrictionProblem
   book(earlier, run);
   for (int k = 1; k <= most_lowerings; ++k) {
     measure(problem, run, runner.body_velocity(), rebounding_);
-    const bool fell = lower(problem, k == most_lowerings);
+    const bool fell = lower_restitution(problem, k == most_lowerings);
     set_bias(problem, rebound);
     if (!fell) break;
     earlier = std::move(run);

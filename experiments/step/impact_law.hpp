@@ -43,13 +43,13 @@ class ImpactLaw {
 
   void measure(FrictionProblem& problem, const SolverRun& run, const Eigen::VectorXd& v,
                Impact& impact) const;
-  bool lower(const FrictionProblem& problem, bool give_up);
-  double lowered_to(const FrictionProblem& problem, const std::vector<int>& contacts) const;
+  bool lower_restitution(const FrictionProblem& problem, bool to_zero);
+  double lowering_factor(const FrictionProblem& problem, const std::vector<int>& contacts) const;
   void set_bias(FrictionProblem& problem, std::span<const double> rebound) const;
 
   double restitution_, least_ = 0.0;
   std::vector<std::vector<int>> islands_;  ///< contacts of each
-  std::vector<double> scale_;              ///< of e, per island
+  std::vector<double> e_factor_;           ///< of e, per island
   Eigen::VectorXd newton_, walls_, u_free_;
   Impact inelastic_, rebounding_;
 };

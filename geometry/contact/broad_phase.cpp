@@ -42,10 +42,10 @@ BroadPhase::BroadPhase(std::vector<Body> bodies, double skin)
 void BroadPhase::update(std::span<const Pose> poses, std::span<const Mat3> rotations,
                         std::span<const double> reach) {
   if (still_valid(poses, reach)) return;
-  grow_boxes(poses, rotations, reach);
+  list_boxes(poses, rotations, reach);
   find_overlaps();
-  std::swap(pairs_, old_pairs_);
-  sort_pairs();
+  std::swap(pairs_, old_pairs_);  // what is known of a pair is taken from the old list
+  list_pairs();
   carry_memory();
   ++rebuilds_;
 }
@@ -63,7 +63,7 @@ bool BroadPhase::still_valid(std::span<const Pose> poses, std::span<const double
 
 /// Fast bodies get a margin of several steps' reach, so that one of them does not cause a new list
 /// in every step.
-void BroadPhase::grow_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
+void BroadPhase::list_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
                             std::span<const double> reach) {
   listed_pose_.assign(poses.begin(), poses.end());
   allowance_.assign(reach.begin(), reach.end());
@@ -119,7 +119,7 @@ void BroadPhase::find_overlaps() {
   }
 }
 
-void BroadPhase::sort_pairs() {
+void BroadPhase::list_pairs() {
   std::sort(found_.begin(), found_.end());
   pairs_.clear();
   std::fill(first_.begin(), first_.end(), 0);

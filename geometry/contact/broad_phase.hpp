@@ -49,6 +49,7 @@ class BroadPhase {
   BroadPhase(std::vector<Body> bodies, double skin);
 
   /// Brings the list up to date; pairs that stay keep their memory. `rotations`: R_WB of the poses.
+  /// `reach`: how far any point of each body may get until the next call [m].
   void update(std::span<const Pose> poses, std::span<const Mat3> rotations,
               std::span<const double> reach);
 
@@ -61,14 +62,14 @@ class BroadPhase {
 
  private:
   bool still_valid(std::span<const Pose> poses, std::span<const double> reach) const;
-  void grow_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
+  void list_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
                   std::span<const double> reach);
   void find_overlaps();
-  void sort_pairs();
+  void list_pairs();
   void carry_memory();
 
   std::vector<Body> bodies_;
-  std::vector<double> radius_;  // circumradii, for the shapes themselves are seldom in the cache
+  std::vector<double> radius_;  // circumradii, together for the processor's cache [m]
   double skin_;
   std::vector<Pose> listed_pose_;  // when the list was made
   std::vector<double>

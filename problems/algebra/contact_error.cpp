@@ -75,7 +75,8 @@ BALLAST_IN_LOOP Triple less_projected(const Triple& x, const Triple& y, double m
           x.s - projected(y.s, scale * y.s)};
 }
 
-BALLAST_IN_LOOP Triple natural_map(const Triple& r, const Triple& modified, double mu, double rho) {
+BALLAST_IN_LOOP Triple natural_map_of_modified(const Triple& r, const Triple& modified, double mu,
+                                               double rho) {
   const Triple x{r.n - rho * modified.n, r.t - rho * modified.t, r.s - rho * modified.s};
   return less_projected(r, x, mu);
 }
@@ -115,8 +116,8 @@ BALLAST_FOR_EACH_CPU void find_measures(JudgeBlock& b) {
     const Triple modified{u.n + mu * tangential(u), u.t, u.s};
     const double impulse = norm(r), work = std::abs(dot(r, modified));
     // The natural map, scaled and not; the size of impulses.
-    const Triple map = natural_map(r, modified, mu, 1.0);
-    b.scaled_map[k] = norm(natural_map(r, modified, mu, inverse)) * lambda;
+    const Triple map = natural_map_of_modified(r, modified, mu, 1.0);
+    b.scaled_map[k] = norm(natural_map_of_modified(r, modified, mu, inverse)) * lambda;
     b.map_square[k] = dot(map, map);
     b.impulse[k] = impulse;
     b.needed[k] = rho * norm(q);
@@ -140,7 +141,7 @@ constexpr double ContactError::*largest[] = {&ContactError::cone_violation,
                                              &ContactError::complementarity,
                                              &ContactError::immovable_approach};
 
-ContactError not_finite() {
+ContactError infinite_error() {
   ContactError error;
   for (const auto measure : squares) error.*measure = infinity;
   for (const auto measure : largest) error.*measure = infinity;
@@ -371,7 +372,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     const int begin = part * JudgeBlock::size, end = std::min(begin + JudgeBlock::size, contacts);
     shares_[part] = judge_contacts(problem, r, begin, end);
   });
-  if (!r.allFinite() || !u_.allFinite()) return not_finite();
+  if (!r.allFinite() || !u_.allFinite()) return infinite_error();
 
   ContactError error = gather(contacts);
   // Siconos' measure, the scale of velocities, the power.
@@ -385,7 +386,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   }
   // Sums of squares that overflow, or a scale that does.
   if (!std::isfinite(error.natural_map_rms + error.approach_rms + error.cone_rms + scale))
-    return not_finite();
+    return infinite_error();
   return error;
 }
 

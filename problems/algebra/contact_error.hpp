@@ -44,7 +44,8 @@ struct ContactError {
   double power = 0.0;
   double momentum_residual = 0.0;  ///< |M (v - v_free) - H^T r|_inf, v recomputed (dynamics) [N s]
   double velocity_scale = 0.0;     ///< |q| rms over rows [m/s]: stored problems' relative errors
-  bool finite = true;  ///< false: r, u or a measure holds NaN or infinity; all are then infinite
+  bool finite = true;  ///< false: r, u or a measure holds NaN or infinity; the measures are then
+                       ///< infinite, worst_contact is -1 and velocity_scale 0
 
   /// The other parts of the law may be this much above the tolerance of the natural map.
   static constexpr double bound_factor = 4.0;

@@ -10,10 +10,10 @@ void UnitMassContacts::prepare(const FrictionProblem& problem) {
   const DynamicsForm& d = problem.dynamics;
   std::vector<MassRoot> roots;
   std::vector<Eigen::Matrix3d> diagonal;
-  delassus_diagonal(problem, roots, diagonal);
-  bodies_ = d.body_count();
+  delassus_diagonal(problem, roots, diagonal);  // factors the masses into roots, too
+  body_count_ = d.body_count();
   free_ = Eigen::VectorXd::Zero(unknown_count());
-  for (int b = 0; b < bodies_; ++b) {
+  for (int b = 0; b < body_count_; ++b) {
     double* x = free_.data() + width * b;
     std::copy_n(d.v_free.data() + d.dof_begin[b], d.body_dofs(b), x);
     // x = L^T v: the kinetic energy is |x|^2 / 2.
@@ -30,20 +30,20 @@ void UnitMassContacts::prepare(const FrictionProblem& problem) {
     k.bias.setZero();
     k.bias.head(rows) = d.bias.segment(problem.row_begin[c], rows);
     const double* block = d.h.data() + d.h_begin[c];
-    // G = H L^-T body by body. The side of what does not move stays
-    // zero, and its x is never changed.
+    // G = H L^-T body by body. `block` holds the columns of a, then those of b, and none for what
+    // does not move: that is body number body_count_, whose G is zero, so that its x stays zero.
     for (int s = 0; s < 2; ++s) {
-      k.body[s] = body[s] < 0 ? bodies_ : body[s];
+      k.body[s] = body[s] < 0 ? body_count_ : body[s];
       k.g[s].setZero();
       if (body[s] < 0) continue;
       const MassRoot& root = roots[body[s]];
-      const auto take = [&](int j, const double* column) {
+      const auto store_column = [&](int j, const double* column) {
         for (int i = 0; i < rows; ++i) k.g[s](i, j) = column[i];
       };
       if (rows == 3)
-        root.scaled_columns<3>(block, take);
+        root.scaled_columns<3>(block, store_column);
       else
-        root.scaled_columns<1>(block, take);
+        root.scaled_columns<1>(block, store_column);
       block += rows * root.dofs;
     }
   }

@@ -35,11 +35,11 @@ class UnitMassContacts {
   /// definite.
   void prepare(const FrictionProblem& problem);
 
-  int body_count() const { return bodies_; }
+  int body_count() const { return body_count_; }
   int contact_count() const { return static_cast<int>(contacts_.size()); }
   const Contact& operator[](int c) const { return contacts_[c]; }
   /// Entries of x: six per body, and six zeros for what does not move.
-  int unknown_count() const { return width * (bodies_ + 1); }
+  int unknown_count() const { return width * (body_count_ + 1); }
 
   /// Each impulse to the nearest point of its cone, zero where nothing moves.
   void from_impulses(const Impulses& r, ContactColumns& columns) const;
@@ -69,7 +69,7 @@ class UnitMassContacts {
   double error(const ContactColumns& r, const std::function<Eigen::Vector3d(int)>& u) const;
 
  private:
-  int bodies_ = 0;
+  int body_count_ = 0;
   std::vector<int> row_begin_;
   std::vector<Contact> contacts_;
   Eigen::VectorXd free_;  ///< x without impulses
