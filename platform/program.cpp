@@ -201,7 +201,7 @@ int nothing_to_read() { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           double seconds) {
   constexpr rlim_t most_bytes = 256u << 20;
-  const MemoryFile output, errors, failure;  // failure: why the program could not be started
+  const MemoryFile output, errors;
   // Nothing that changes what gnuplot writes.
   const Words words = words_of(program, arguments),
               environment = changed_environment({"LC_ALL=", "GNUPLOT", "GNUTERM="}, {"LC_ALL=C"});
@@ -209,7 +209,7 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
     const rlimit limit{most_bytes, most_bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
     const int error = become(words, environment, nothing_to_read(), output.number, errors.number);
-    dprintf(failure.number, "%s", std::strerror(error));
+    dprintf(STDERR_FILENO, "cannot be started: %s", std::strerror(error));
     _exit(127);
   });
   ProgramResult result;
@@ -217,9 +217,6 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
   child.send(SIGKILL);
   child.ends_within(1e9);
   result.status = child.status();
-  result.errors = failure.text();
-  result.was_found = result.errors.empty();
-  if (!result.was_found) return result;
   result.output = output.text();
   result.errors = errors.text();
   return result;

@@ -58,12 +58,11 @@ class ChildProcess {
 };
 
 struct ProgramResult {
-  bool was_found = true;   ///< the program is on PATH
   bool timed_out = false;  ///< and was killed
-  int status = 0;          ///< exit code; 128 + signal when a signal ended it
+  int status = 0;          ///< exit code; 128 + signal; 127: it is not on PATH
   std::string output;      ///< standard output
-  std::string errors;      ///< standard error; of a program that was not found, why
-  bool succeeded() const { return was_found && !timed_out && status == 0; }
+  std::string errors;      ///< standard error, or why it cannot be started
+  bool succeeded() const { return !timed_out && status == 0; }
 };
 
 /// Runs program (looked up on PATH) with arguments, standard input empty, in the C locale and

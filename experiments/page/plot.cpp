@@ -289,7 +289,7 @@ std::string panel_commands(const Figure& figure, const Panel& panel, const Panel
 }
 
 std::string why(const ProgramResult& child, double seconds) {
-  if (!child.was_found) return "gnuplot cannot be started: " + child.errors;
+  if (child.status == 127) return "gnuplot " + child.errors;  // "cannot be started: ..."
   if (child.timed_out)
     return "gnuplot was ended after " + std::to_string(std::lround(seconds)) + " s";
   return "gnuplot failed (" + std::to_string(child.status) +
