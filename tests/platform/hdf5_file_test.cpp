@@ -6,11 +6,11 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/captured_errors.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/hdf5_attribute.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -20,114 +20,24 @@ namespace fs = std::filesystem;
 
 TEST_CASE("HDF5 prints nothing of its own") {
   const TemporaryFolder folder;
-  const fs::path path = folder.path() / "a.h5", log = folder.path() / "log";
+  const fs::path path = folder.path() / "a.h5";
   Hdf5Writer(path, Hdf5Storage::plain).commit();
-  const int saved = dup(STDERR_FILENO);
-  REQUIRE(std::freopen(log.c_str(), "w", stderr));
-  std::string first, second;
-  try {
-    Hdf5Reader(path).read_doubles("x");
-  } catch (const Error& error) {
-    first = error.what();
-  }
-  try {
-    Hdf5Reader(folder.path() / "absent.h5");
-  } catch (const Error& error) {
-    second = error.what();
-  }
-  std::fflush(stderr);
-  dup2(saved, STDERR_FILENO);
-  close(saved);
+  const CapturedErrors printed;
+  const std::string first = complaint([&] { Hdf5Reader(path).read_doubles("x"); }),
+                    second = complaint([&] { Hdf5Reader(folder.path() / "absent.h5"); });
+  const long bytes = printed.bytes();
+  CHECK(bytes == 0);
   CHECK(first == path.string() + ": x: no such dataset");
   CHECK(second == (folder.path() / "absent.h5").string() + ": no such file");
-  CHECK(fs::file_size(log) == 0);
 }
 
 namespace {
 
-void write_sample(const fs::path& path) {
-  Hdf5Writer writer(path, Hdf5Storage::compressed);
-  writer.add_group("g");
-  writer.add_attribute("g", "unit", "m");
-  writer.add("g/x", std::vector<double>{1.0, 2.0});
-  writer.add("g/one", std::vector<std::int32_t>{5});
-  writer.add("g/texts", std::vector<std::string>{"a", "b"});
-  writer.add_text("g/text", "t");
-  std::vector<double> many(20000);
-  for (size_t k = 0; k < many.size(); ++k) many[k] = 0.1 * static_cast<double>(k * k);
-  writer.add("g/many", many);
-  writer.commit();
-}
+constexpr size_t sample_rows = 5000;  // of 48 bytes: several compressed chunks
 
-/// What work() complains of, without the file's name; "" when it does not.
-template <typename Work>
-std::string complaint(const fs::path& path, const Work& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    const std::string text = error.what();
-    CHECK(text.starts_with(path.string() + ": "));
-    CHECK(text.find('\n') == std::string::npos);
-    return text.substr(path.string().size() + 2);
-  }
-  return "";
-}
-
-}  // namespace
-
-TEST_CASE("what is no HDF5 file is told apart") {
-  const TemporaryFolder folder;
-  const fs::path path = folder.path() / "a.h5";
-  const auto opened = [&] { return complaint(path, [&] { Hdf5Reader file(path); }); };
-  CHECK(opened() == "no such file");
-  write_whole_file(path, "not at all");
-  CHECK(opened() == "not an HDF5 file");
-  write_sample(path);
-  CHECK(opened() == "");
-  fs::resize_file(path, fs::file_size(path) / 2);
-  CHECK(opened() == "damaged or truncated HDF5 file");
-  CHECK(complaint(folder.path(), [&] { Hdf5Reader file(folder.path()); }) == "not a regular file");
-}
-
-TEST_CASE("what a file does not have is named") {
-  const TemporaryFolder folder;
-  const fs::path path = folder.path() / "a.h5";
-  write_sample(path);
-  const Hdf5Reader file(path);
-  CHECK(file.has("g"));
-  CHECK(file.has("/g/x"));
-  CHECK_FALSE(file.has("g/y"));
-  CHECK_FALSE(file.has("h/x"));
-  const auto said = [&](auto work) { return complaint(path, work); };
-  CHECK(said([&] { file.read_doubles("h/x"); }) == "h/x: no such dataset");
-  CHECK(said([&] { file.read_doubles("g"); }) == "g: not a dataset");
-  CHECK(said([&] { file.read_doubles("g/texts"); }) == "g/texts: does not hold numbers");
-  CHECK(said([&] { file.read_int("g/x"); }) == "g/x has 2 entries, must have 1");
-  CHECK(file.read_int("g/one") == 5);
-  CHECK(said([&] { file.read_text("g/x"); }) == "g/x: is no text of fixed length");
-  CHECK(said([&] { file.read_text("g/texts"); }) == "g/texts: is no text of fixed length");
-  CHECK(said([&] { file.read_rows("g/x", 2); }) == "HDF5 cannot read rows 2 to 3 of g/x");
-  CHECK(said([&] { file.read_texts("g/x"); }) == "HDF5 cannot read g/x");
-}
-
-TEST_CASE("a bit that flips in compressed numbers is noticed") {
-  const TemporaryFolder folder;
-  const fs::path path = folder.path() / "a.h5";
-  write_sample(path);
-  std::string bytes = read_whole_file(path);
-  const size_t middle = bytes.size() / 2;  // most of the file is g/many
-  bytes[middle] = static_cast<char>(bytes[middle] ^ 1);
-  write_whole_file(path, bytes);
-  const Hdf5Reader file(path);
-  CHECK(file.read_doubles("g/x") == std::vector<double>{1.0, 2.0});
-  CHECK(complaint(path, [&] { file.read_doubles("g/many"); }) ==
-        "g/many: cannot be read (damaged or truncated)");
-}
-
-namespace {
-
-/// Something of each kind; `rows` slices of two by three numbers.
-void fill(Hdf5Writer& file, size_t rows) {
+/// Something of each kind, and slices of two by three numbers.
+void write_sample(const fs::path& path, Hdf5Storage storage = Hdf5Storage::compressed) {
+  Hdf5Writer file(path, storage);
   file.add_group("group");
   file.add_attribute("/", "format", "test 1");
   file.add_attribute("group", "unit", "m/s\u00b2");
@@ -138,23 +48,80 @@ void fill(Hdf5Writer& file, size_t rows) {
   file.add("group/empty", std::vector<double>{});
   file.add("group/texts", std::vector<std::string>{"", "one", "two words"});
   file.add_text("group/text", "a text");
-  const Hdf5Id slices = file.add_rows("group/slices", {rows, 2, 3});
-  for (size_t k = 0; k < rows; ++k) {
-    const double x = static_cast<double>(k);
-    file.write_rows(slices, k, std::vector<double>{x, x + 1, x + 2, -x, -x - 1, -x - 2});
+  file.add("group/one", std::vector<std::int32_t>{5});
+  {
+    const Hdf5Id slices = file.add_rows("group/slices", {sample_rows, 2, 3});
+    for (size_t k = 0; k < sample_rows; ++k) {
+      const double x = static_cast<double>(k);
+      file.write_rows(slices, k, std::vector<double>{x, x + 1, x + 2, -x, -x - 1, -x - 2});
+    }
   }
+  file.commit();
 }
 
 }  // namespace
+
+TEST_CASE("what is no HDF5 file is told apart") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.h5";
+  const auto opened = [&] { return complaint_about(path, [&] { Hdf5Reader file(path); }); };
+  CHECK(opened() == "no such file");
+  write_whole_file(path, "not at all");
+  CHECK(opened() == "not an HDF5 file");
+  write_sample(path);
+  CHECK(opened() == "");
+  fs::resize_file(path, fs::file_size(path) / 2);
+  CHECK(opened() == "damaged or truncated HDF5 file");
+  CHECK(complaint_about(folder.path(), [&] { Hdf5Reader file(folder.path()); }) ==
+        "not a regular file");
+}
+
+TEST_CASE("what a file does not have is named") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.h5";
+  write_sample(path);
+  const Hdf5Reader file(path);
+  CHECK(file.has("group"));
+  CHECK(file.has("/group/ints"));
+  CHECK_FALSE(file.has("group/y"));
+  CHECK_FALSE(file.has("h/x"));
+  const auto said = [&](auto work) { return complaint_about(path, work); };
+  CHECK(said([&] { file.read_doubles("h/x"); }) == "h/x: no such dataset");
+  CHECK(said([&] { file.read_doubles("group"); }) == "group: not a dataset");
+  CHECK(said([&] { file.read_doubles("group/texts"); }) == "group/texts: does not hold numbers");
+  CHECK(said([&] { file.read_int("group/ints"); }) == "group/ints has 2 entries, must have 1");
+  CHECK(file.read_int("group/one") == 5);
+  CHECK(said([&] { file.read_text("group/ints"); }) == "group/ints: is no text of fixed length");
+  CHECK(said([&] { file.read_text("group/texts"); }) == "group/texts: is no text of fixed length");
+  CHECK(said([&] { file.read_rows("group/ints", 2); }) ==
+        "HDF5 cannot read rows 2 to 3 of group/ints");
+  CHECK(said([&] { file.read_texts("group/ints"); }) == "HDF5 cannot read group/ints");
+}
+
+TEST_CASE("a bit that flips in compressed numbers is noticed") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.h5";
+  std::vector<double> many(20000);
+  for (size_t k = 0; k < many.size(); ++k) many[k] = 0.1 * static_cast<double>(k * k);
+  Hdf5Writer writer(path, Hdf5Storage::compressed);
+  writer.add("few", std::vector<double>{1.0, 2.0});
+  writer.add("many", many);
+  writer.commit();
+  std::string bytes = read_whole_file(path);
+  const size_t middle = bytes.size() / 2;  // most of the file is "many"
+  bytes[middle] = static_cast<char>(bytes[middle] ^ 1);
+  write_whole_file(path, bytes);
+  const Hdf5Reader file(path);
+  CHECK(file.read_doubles("few") == std::vector<double>{1.0, 2.0});
+  CHECK(complaint_about(path, [&] { file.read_doubles("many"); }) ==
+        "many: cannot be read (damaged or truncated)");
+}
 
 TEST_CASE("what is written is read back, plain or compressed") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a.h5";
   for (const Hdf5Storage storage : {Hdf5Storage::plain, Hdf5Storage::compressed}) {
-    constexpr size_t rows = 5000;  // of 48 bytes: several compressed chunks
-    Hdf5Writer writer(path, storage);
-    fill(writer, rows);
-    writer.commit();
+    write_sample(path, storage);
     const Hdf5Reader file(path);
     CHECK(hdf5_attribute(path, "/", "format") == "test 1");
     CHECK(hdf5_attribute(path, "group", "unit") == "m/s\u00b2");
@@ -166,11 +133,11 @@ TEST_CASE("what is written is read back, plain or compressed") {
     CHECK(file.read_doubles("group/empty").empty());
     CHECK(file.read_texts("group/texts") == std::vector<std::string>{"", "one", "two words"});
     CHECK(file.read_text("/group/text") == "a text");
-    CHECK(file.shape("group/slices") == Hdf5Shape{rows, 2, 3});
+    CHECK(file.shape("group/slices") == Hdf5Shape{sample_rows, 2, 3});
     CHECK(file.read_rows("group/slices", 4321) ==
           std::vector<double>{4321, 4322, 4323, -4321, -4322, -4323});
     const std::vector<double> all = file.read_doubles("group/slices");
-    REQUIRE(all.size() == 6 * rows);
+    REQUIRE(all.size() == 6 * sample_rows);
     CHECK(all[6 * 17 + 1] == 18.0);
   }
 }
@@ -178,9 +145,7 @@ TEST_CASE("what is written is read back, plain or compressed") {
 TEST_CASE("equal contents are equal bytes, and compression is one") {
   const TemporaryFolder folder;
   const auto bytes = [&](const char* name, Hdf5Storage storage) {
-    Hdf5Writer writer(folder.path() / name, storage);
-    fill(writer, 5000);
-    writer.commit();
+    write_sample(folder.path() / name, storage);
     return read_whole_file(folder.path() / name);
   };
   const std::string plain = bytes("a.h5", Hdf5Storage::plain);
@@ -195,10 +160,7 @@ TEST_CASE("without commit() there is no file, and an old one stays") {
   { Hdf5Writer writer(path, Hdf5Storage::plain); }
   CHECK(fs::is_empty(folder.path()));
   write_whole_file(path, "old");
-  {
-    Hdf5Writer writer(path, Hdf5Storage::plain);
-    fill(writer, 1);
-  }
+  Hdf5Writer(path, Hdf5Storage::plain).add("x", std::vector<double>{1.0});
   CHECK(read_whole_file(path) == "old");
 }
 
@@ -232,35 +194,24 @@ TEST_CASE("rows come one by one, many at once, and as whole numbers") {
 TEST_CASE("what cannot be written is an error that names the file") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a.h5", absent = folder.path() / "absent" / "a.h5";
-  const auto complaint = [&](auto work) -> std::string {
-    try {
-      work();
-    } catch (const Error& error) {
-      return std::string(error.what()).substr(path.string().size());
-    }
-    return "no error";
-  };
+  const auto said = [&](auto work) { return complaint_about(path, work); };
   CHECK_THROWS_WITH(Hdf5Writer(absent, Hdf5Storage::plain),
                     absent.string() + ": cannot write: No such file or directory");
   Hdf5Writer writer(path, Hdf5Storage::plain);
   writer.add("x", std::vector<double>{1.0});
-  CHECK(complaint([&] { writer.add("x", std::vector<double>{2.0}); }) == ": HDF5 cannot make x");
-  CHECK(complaint([&] { writer.add("no/x", std::vector<double>{2.0}); }) ==
-        ": HDF5 cannot make no/x");
-  CHECK(complaint([&] { writer.add_group("x"); }) == ": HDF5 cannot make x");
-  CHECK(complaint([&] { writer.add_attribute("y", "unit", "m"); }) ==
-        ": HDF5 cannot write the attribute unit of y");
+  for (const std::string name : {"x", "no/x"})
+    CHECK(said([&] { writer.add(name, std::vector<double>{2.0}); }) == "HDF5 cannot make " + name);
+  CHECK(said([&] { writer.add_group("x"); }) == "HDF5 cannot make x");
+  CHECK(said([&] { writer.add_attribute("y", "unit", "m"); }) ==
+        "HDF5 cannot write the attribute unit of y");
   {
     const Hdf5Id dataset = writer.add_rows("rows", {2, 3});
     const auto rows = [&](size_t first, size_t size) {
-      return complaint([&] { writer.write_rows(dataset, first, std::vector<double>(size)); });
+      return said([&] { writer.write_rows(dataset, first, std::vector<double>(size)); });
     };
-    CHECK(rows(2, 3) == ": HDF5 cannot select rows");
-    CHECK(rows(1, 4) == ": HDF5 cannot select rows");
-    CHECK(rows(1, 6) == ": HDF5 cannot select rows");
-    CHECK(rows(0, 0) == ": HDF5 cannot select rows");
-    CHECK(rows(1, 3) == "no error");
-    CHECK(rows(0, 6) == "no error");
+    for (const auto& [first, size] : {std::pair(2, 3), {1, 4}, {1, 6}, {0, 0}})
+      CHECK(rows(first, size) == "HDF5 cannot select rows");
+    for (const auto& [first, size] : {std::pair(1, 3), {0, 6}}) CHECK(rows(first, size) == "");
   }
 }
 
@@ -287,17 +238,12 @@ TEST_CASE("a disk that fills up at any moment is one error, and no file") {
   const std::uintmax_t length = fs::file_size(path);
   fs::remove(path);
   REQUIRE(length > 3'000'000);
-  const auto complaint = [&](rlim_t limit) -> std::string {
+  const auto write_within = [&](rlim_t limit) {
     const FileSizeLimit disk(limit);
-    try {
-      write_much(path);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+    write_much(path);
   };
   for (std::uintmax_t limit = 0; limit < length; limit += length / 23)
-    CHECK(complaint(limit) == path.string() + ": cannot write: File too large");
+    CHECK(complaint_about(path, [&] { write_within(limit); }) == "cannot write: File too large");
   CHECK(fs::is_empty(folder.path()));
   // HDF5 has no file open that it would try to finish at the end of the program.
   CHECK(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL) == 0);

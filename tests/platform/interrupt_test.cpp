@@ -3,9 +3,9 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "platform/program.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -27,14 +27,12 @@ namespace {
 /// How a process ends that does `work`: 128 + signal, or its exit code.
 template <typename Work>
 int end_of(const Work& work) {
-  const pid_t child = fork();
-  if (child == 0) {
+  ChildProcess child([&] {
     work();
     _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  });
+  child.ends_within(60.0);
+  return child.status();
 }
 
 }  // namespace

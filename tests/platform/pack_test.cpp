@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
@@ -110,15 +110,9 @@ constexpr SealedKind kind{"MAGICMAG", "thing", 3};
 
 std::string refusal(const std::filesystem::path& file, std::string_view bytes) {
   write_whole_file(file, bytes);
-  try {
-    read_sealed_file(file, kind);
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    CHECK(message.starts_with(file.string() + ": "));
-    return message;
-  }
-  FAIL("no Error was thrown");
-  return {};
+  const std::string said = complaint_about(file, [&] { read_sealed_file(file, kind); });
+  CHECK(said != "");
+  return said;
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
@@ -42,14 +42,12 @@ long count_rows(RowReader& reader) {
 
 /// Rows that are read from the file, or what the error says behind the file's name.
 std::string read_all(const fs::path& file) {
-  try {
+  long rows = 0;
+  const std::string said = complaint_about(file, [&] {
     RowReader reader(file);
-    return std::to_string(count_rows(reader));
-  } catch (const Error& error) {
-    const std::string text = error.what();
-    REQUIRE(text.starts_with(file.string() + ": "));
-    return text.substr(file.string().size() + 2);
-  }
+    rows = count_rows(reader);
+  });
+  return said.empty() ? std::to_string(rows) : said;
 }
 
 void flip(const fs::path& file, size_t byte) {

@@ -61,10 +61,10 @@ TEST_CASE("the separation is the oracle's, over all placements") {
     INFO(name(placement) << ": overlapping " << overlapping << ", faces " << faces << " of "
                          << count);
     CHECK(worst <= 1e-12);
-    if (placement == Placement::near_touching)
+    if (placement == Placement::near_touching) {
       CHECK((overlapping > count / 4 && overlapping < 3 * count / 4));
-    if (placement == Placement::near_touching)
       CHECK((faces > count / 10 && faces < 9 * count / 10));
+    }
     if (placement == Placement::deep || placement == Placement::inside)
       CHECK(overlapping > count / 2);
   }
@@ -145,9 +145,7 @@ TEST_CASE("a search that stops at the alert distance agrees with one that does n
 }
 
 TEST_CASE("equal axes: faces before edges, a before b, the smaller index") {
-  AxisSearch search(collision_pool());
-  const CollisionShape cube(make_box(Vec3(2, 2, 2)));
-  const std::vector<CollisionShape> shapes{cube};
+  const std::vector<CollisionShape> shapes{CollisionShape(make_box(Vec3(2, 2, 2)))};
   AxisSearch cubes(shapes);
   AxisFeature hint;
   SeparatingAxis axis;

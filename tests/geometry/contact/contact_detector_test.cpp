@@ -218,17 +218,16 @@ TEST_CASE("what is not a number, or not as many, is refused by name") {
   std::vector<ContactPoint> contacts;
   auto poses = packing.poses;
   poses[4].position.y() = NAN;
-  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts),
-                    Catch::Matchers::Contains("body 4"));
+  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts), Catch::Contains("body 4"));
   poses = packing.poses;
   poses[2].rotation.w() = INFINITY;
-  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts),
-                    Catch::Matchers::Contains("body 2"));
+  CHECK_THROWS_WITH(detector.detect(poses, packing.reach, contacts), Catch::Contains("body 2"));
   auto reach = packing.reach;
-  reach[1] = NAN;
-  CHECK_THROWS_AS(detector.detect(packing.poses, reach, contacts), std::invalid_argument);
-  reach[1] = -1.0;
-  CHECK_THROWS_AS(detector.detect(packing.poses, reach, contacts), std::invalid_argument);
+  for (const double bad : {std::nan(""), -1.0}) {
+    reach[1] = bad;
+    CHECK_THROWS_AS(detector.detect(packing.poses, reach, contacts), std::invalid_argument);
+  }
+  reach = packing.reach;
   reach.pop_back();
   CHECK_THROWS_AS(detector.detect(packing.poses, reach, contacts), std::invalid_argument);
   detector.detect(packing.poses, packing.reach, contacts);  // and goes on

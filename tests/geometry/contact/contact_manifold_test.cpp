@@ -31,8 +31,14 @@ std::uint64_t mirrored_key(std::uint64_t key) {
                      static_cast<int>(a));
 }
 
-/// Area of the convex hull of points on a plane, by the fan over all triangles of a sorted polygon.
-double hull_area(std::vector<Vec3> points, const Vec3& normal) {
+std::vector<Vec3> positions(const Contact& contact) {
+  std::vector<Vec3> places;
+  for (const ManifoldPoint& p : contact.points) places.push_back(p.position);
+  return places;
+}
+
+/// Points of a plane in their order around the normal, seen from their centre.
+std::vector<Vec3> around(std::vector<Vec3> points, const Vec3& normal) {
   Vec3 centre = Vec3::Zero();
   for (const Vec3& p : points) centre += p / static_cast<double>(points.size());
   const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
@@ -40,6 +46,12 @@ double hull_area(std::vector<Vec3> points, const Vec3& normal) {
     return std::atan2(v.dot(p - centre), u.dot(p - centre)) <
            std::atan2(v.dot(q - centre), u.dot(q - centre));
   });
+  return points;
+}
+
+/// Area of the convex hull of points on a plane, by the fan over all triangles of a sorted polygon.
+double hull_area(const std::vector<Vec3>& corners, const Vec3& normal) {
+  const std::vector<Vec3> points = around(corners, normal);
   double area = 0.0;
   for (size_t k = 2; k < points.size(); ++k)
     area += 0.5 * normal.dot((points[k - 1] - points[0]).cross(points[k] - points[0]));
@@ -165,23 +177,13 @@ TEST_CASE("stacked boxes stand on their corners, triangulated or not") {
         REQUIRE(found.points.size() == 4);
         CHECK(found.normal.isApprox(Vec3::UnitZ(), 1e-12));
         // the upper box's centre of mass is above the points' hull
-        std::vector<Vec3> points;
-        for (const ManifoldPoint& p : found.points) {
-          CHECK(p.gap == Approx(-1e-5).epsilon(1e-8));
-          points.push_back(p.position);
-        }
-        const double area = hull_area(points, Vec3::UnitZ());
-        points.push_back(pair.other[0].position);
-        CHECK(area > 0.02);
-        Vec3 centre = Vec3::Zero();
-        for (int k = 0; k < 4; ++k) centre += 0.25 * points[k];
-        std::sort(points.begin(), points.end() - 1, [&](const Vec3& p, const Vec3& q) {
-          return std::atan2(p.y() - centre.y(), p.x() - centre.x()) <
-                 std::atan2(q.y() - centre.y(), q.x() - centre.x());
-        });
+        for (const ManifoldPoint& p : found.points) CHECK(p.gap == Approx(-1e-5).epsilon(1e-8));
+        CHECK(hull_area(positions(found), Vec3::UnitZ()) > 0.02);
+        const std::vector<Vec3> points = around(positions(found), Vec3::UnitZ());
         for (int k = 0; k < 4; ++k) {
-          const Vec3 side = points[(k + 1) % 4] - points[k], from = points[4] - points[k];
-          CHECK(side.x() * from.y() - side.y() * from.x() > 0.0);
+          const Vec3 side = points[(k + 1) % 4] - points[k],
+                     from = pair.other[0].position - points[k];
+          CHECK(side.cross(from).z() > 0.0);
         }
       }
     }
@@ -205,15 +207,11 @@ TEST_CASE("reduction keeps the deepest point and most of the area") {
       const Contact few = contact_of(pair, 1e-4, max_points);
       REQUIRE(static_cast<int>(few.points.size()) == max_points);
       double least = 1e300;
-      std::vector<Vec3> corners, all_corners;
-      for (const ManifoldPoint& p : few.points) {
-        least = std::min(least, p.gap);
-        corners.push_back(p.position);
-      }
-      for (const ManifoldPoint& p : all.points) all_corners.push_back(p.position);
+      for (const ManifoldPoint& p : few.points) least = std::min(least, p.gap);
       CHECK(least == Approx(few.axis.separation).margin(1e-15));
       if (max_points < 3) continue;
-      const double share = hull_area(corners, few.normal) / hull_area(all_corners, few.normal);
+      const double share =
+          hull_area(positions(few), few.normal) / hull_area(positions(all), few.normal);
       CHECK(share >= before - 1e-9);
       before = share;
       if (max_points == 4) CHECK(share > 0.5);

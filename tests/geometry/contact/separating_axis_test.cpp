@@ -13,7 +13,16 @@ using namespace ballast::testing;
 
 namespace {
 
-Heights scratch() { return Heights(512); }
+/// Every face of either body and every pair of edges.
+std::vector<AxisFeature> all_features(const ShapePair& pair) {
+  std::vector<AxisFeature> features;
+  const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
+  for (int f = 0; f < a.faces().count(); ++f) features.push_back({AxisKind::face_of_a, f, -1});
+  for (int f = 0; f < b.faces().count(); ++f) features.push_back({AxisKind::face_of_b, -1, f});
+  for (int ea = 0; ea < a.edge_count(); ++ea)
+    for (int eb = 0; eb < b.edge_count(); ++eb) features.push_back({AxisKind::edges, ea, eb});
+  return features;
+}
 
 int top_face(const CollisionShape& shape) {
   int best = 0;
@@ -26,7 +35,7 @@ int top_face(const CollisionShape& shape) {
 
 TEST_CASE("a face's separation is the gap to the other body's nearest vertex") {
   const CollisionShape box(make_box(Vec3(2, 2, 2)));
-  Heights heights = scratch();
+  Heights heights(512);
   // a cube on its corner above the top face, off centre
   const Mat3 corner_down = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
   const ShapePair pair(box, box, {corner_down, Vec3(0.3, -0.2, 1.0 + std::sqrt(3.0) - 0.01)});
@@ -48,16 +57,14 @@ TEST_CASE("crossed edges: the gap along their common normal") {
   const RelativePose b_in_a{on_edge.transpose() * cross * on_edge,
                             on_edge.transpose() * Vec3(0.0, 0.0, std::sqrt(2.0) + 0.02)};
   const ShapePair pair(rod, rod, b_in_a);
-  Heights heights = scratch();
+  Heights heights(512);
   std::vector<SeparatingAxis> found;
-  for (int ea = 0; ea < rod.edge_count(); ++ea) {
-    for (int eb = 0; eb < rod.edge_count(); ++eb) {
-      const AxisFeature feature{AxisKind::edges, static_cast<int>(ea), static_cast<int>(eb)};
-      const auto axis = evaluate_axis(pair, feature, heights);
-      if (axis && axis->separation > 0.0) found.push_back(*axis);
-    }
+  for (const AxisFeature& feature : all_features(pair)) {
+    const auto axis = evaluate_axis(pair, feature, heights);
+    if (axis && axis->separation > 0.0) found.push_back(*axis);
   }
   REQUIRE(found.size() == 1);
+  CHECK(found[0].feature.kind == AxisKind::edges);
   CHECK(found[0].separation == Approx(0.02).epsilon(1e-12));
   CHECK(found[0].direction.isApprox(on_edge.transpose() * Vec3::UnitZ(), 1e-14));
   CHECK(found[0].inside == Approx(5.0 * std::sqrt(0.75)).epsilon(1e-12));
@@ -71,7 +78,7 @@ TEST_CASE("crossed edges: the gap along their common normal") {
 
 TEST_CASE("two edges form a facet exactly if both are supports along their common normal") {
   Random random(11);
-  Heights heights = scratch();
+  Heights heights(512);
   int facets = 0;
   for (int i = 0; i < 300; ++i) {
     const PairCase c = random_case(i % 2 ? Placement::deep : Placement::near_touching, random);
@@ -93,8 +100,7 @@ TEST_CASE("two edges form a facet exactly if both are supports along their commo
           worst_margin = std::max(worst_margin, -std::max(lacks_a, lacks_b));
         }
         if (std::abs(worst_margin) < 1e-10 && worst_margin < -1e-15) continue;  // too close to tell
-        const bool is_facet =
-            edge_separation(pair, static_cast<int>(ea), static_cast<int>(eb), heights).has_value();
+        const bool is_facet = edge_separation(pair, ea, eb, heights).has_value();
         facets += is_facet;
         if (is_facet != (worst_margin > -1e-12))
           FAIL_CHECK("case " << i << ", edges " << ea << ", " << eb);
@@ -106,7 +112,7 @@ TEST_CASE("two edges form a facet exactly if both are supports along their commo
 
 TEST_CASE("an axis proved to be the best is the best") {
   Random random(13);
-  Heights heights = scratch();
+  Heights heights(512);
   int proved = 0, of_touching = 0, touching = 0;
   for (int i = 0; i < 3000; ++i) {
     const Placement placement = placements[i % std::size(placements)];
@@ -114,9 +120,9 @@ TEST_CASE("an axis proved to be the best is the best") {
     const ShapePair pair = c.pair();
     double oracle = NAN;
     bool best_proved = false;
-    const auto check = [&](const AxisFeature& feature) {
+    for (const AxisFeature& feature : all_features(pair)) {
       const auto axis = evaluate_axis(pair, feature, heights);
-      if (!axis || !is_proved_best(pair, face_isolation(pair, axis->feature), *axis)) return;
+      if (!axis || !is_proved_best(pair, face_isolation(pair, axis->feature), *axis)) continue;
       if (std::isnan(oracle))
         oracle = brute_force(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a).facets;
       ++proved;
@@ -124,12 +130,6 @@ TEST_CASE("an axis proved to be the best is the best") {
       if (std::abs(axis->separation - oracle) > 1e-12 * c.size())
         FAIL_CHECK(name(placement)
                    << " case " << i << ": " << axis->separation << " is not " << oracle);
-    };
-    for (int f = 0; f < pair.shape[0]->faces().count(); ++f) check({AxisKind::face_of_a, f, -1});
-    for (int f = 0; f < pair.shape[1]->faces().count(); ++f) check({AxisKind::face_of_b, -1, f});
-    for (int ea = 0; ea < pair.shape[0]->edge_count(); ++ea) {
-      for (int eb = 0; eb < pair.shape[1]->edge_count(); ++eb)
-        check({AxisKind::edges, static_cast<int>(ea), static_cast<int>(eb)});
     }
     if (placement != Placement::near_touching) continue;
     ++touching;

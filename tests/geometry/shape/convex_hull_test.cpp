@@ -1,11 +1,7 @@
 #include "geometry/shape/convex_hull.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -13,18 +9,16 @@
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/pose.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/captured_errors.hpp"
+#include "tests/support/complaint.hpp"
 
 using namespace ballast;
 
 namespace {
 
-std::string complaint(const std::vector<Vec3>& points) {
-  try {
-    convex_hull(points);
-    return "";
-  } catch (const InvalidPolyhedron& error) {
-    return error.what();
-  }
+/// Why the points have no hull; empty when they have one.
+std::string defect(const std::vector<Vec3>& points) {
+  return complaint<InvalidPolyhedron>([&] { convex_hull(points); });
 }
 
 /// Vertex sets of the faces, by definition: planes through three points with all others on one
@@ -71,32 +65,6 @@ std::vector<Vec3> cube_corners() {
   const Polyhedron box = make_box({2, 2, 2});
   return {box.vertices().begin(), box.vertices().end()};
 }
-
-/// What is written to stderr while it lives.
-class StderrCapture {
- public:
-  StderrCapture() : file_(std::tmpfile()), saved_(dup(2)) { dup2(fileno(file_), 2); }
-  ~StderrCapture() {
-    restore();
-    std::fclose(file_);
-  }
-  long bytes() {
-    restore();
-    std::fseek(file_, 0, SEEK_END);
-    return std::ftell(file_);
-  }
-
- private:
-  void restore() {
-    if (saved_ < 0) return;
-    std::fflush(stderr);
-    dup2(saved_, 2);
-    close(saved_);
-    saved_ = -1;
-  }
-  std::FILE* file_;
-  int saved_;
-};
 
 }  // namespace
 
@@ -183,7 +151,7 @@ TEST_CASE("cubes and lattices with noise of any size have a hull that holds ever
           points.push_back(turn * Vec3(x, y, z) +
                            noise * Vec3(random.normal(), random.normal(), random.normal()));
     CAPTURE(trial, noise, n);
-    REQUIRE(complaint(points) == "");
+    REQUIRE(defect(points) == "");
     const Polyhedron hull = convex_hull(points);
     CHECK(worst_outside(hull, points) < 2e-8);
     if (noise < 1e-12) CHECK(hull.face_count() == 6);
@@ -201,23 +169,23 @@ TEST_CASE("scale and place change nothing") {
 }
 
 TEST_CASE("sets without a hull say why, and qhull stays silent") {
-  StderrCapture captured;
-  std::vector<std::string> said, expected;
-  const auto expect = [&](const std::vector<Vec3>& points, const std::string& part) {
-    said.push_back(complaint(points));
-    expected.push_back(part);
+  const CapturedErrors captured;
+  struct Case {
+    std::vector<Vec3> points;
+    std::string said;
   };
-  expect({}, "at least 4 points are needed, got 0");
-  expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, "at least 4 points are needed, got 3");
-  expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, std::nan(""), 1}},
-         "point 3 has a coordinate that is NaN");
-  expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::numeric_limits<double>::infinity()}},
-         "NaN or infinite");
-  expect(std::vector<Vec3>(9, Vec3(1, 2, 3)), "all points coincide");
-  expect({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}, {-1, -1, -1}}, "lie on one line");
-  expect({{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 2}, {3, 1, 4}}, "lie in one plane");
-  expect({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-12}}, "lie in one plane");
-  expect({{0, 0, 0}, {1e200, 0, 0}, {0, 1, 0}, {1, 1, 1}}, "overflows");
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::vector<Case> table{
+      {{}, "at least 4 points are needed, got 0"},
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, "at least 4 points are needed, got 3"},
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, std::nan(""), 1}},
+       "point 3 has a coordinate that is NaN"},
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, infinite}}, "NaN or infinite"},
+      {std::vector<Vec3>(9, Vec3(1, 2, 3)), "all points coincide"},
+      {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}, {-1, -1, -1}}, "lie on one line"},
+      {{{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 2}, {3, 1, 4}}, "lie in one plane"},
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-12}}, "lie in one plane"},
+      {{{0, 0, 0}, {1e200, 0, 0}, {0, 1, 0}, {1, 1, 1}}, "overflows"}};
   // points along the diagonals of a cube with noise of qhull's merging radius, at seeds where qhull
   // 2020.2 gives up and wants to say so; the second attempt resolves the points
   for (const int seed : {5459, 5625, 9887, 53207}) {
@@ -231,15 +199,14 @@ TEST_CASE("sets without a hull say why, and qhull stays silent") {
       const double t = random.uniform();
       points.push_back(ends[0] + t * (ends[1] - ends[0]) + noise * random_direction(random));
     }
-    expect(points, "");
+    table.push_back({points, ""});
   }
-  const long bytes = captured.bytes();
-  CHECK(bytes == 0);
-  for (size_t i = 0; i < said.size(); ++i) {
-    CAPTURE(said[i], expected[i]);
-    CHECK(said[i].find(expected[i]) != std::string::npos);
-    CHECK(said[i].empty() == expected[i].empty());
+  for (const auto& [points, said] : table) {
+    const std::string found = defect(points);
+    CHECK_THAT(found, Catch::Contains(said));
+    CHECK(found.empty() == said.empty());
   }
+  CHECK(captured.bytes() == 0);
 }
 
 namespace {

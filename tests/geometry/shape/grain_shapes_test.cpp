@@ -68,20 +68,13 @@ TEST_CASE("settings narrow the grains, and impossible ones are refused") {
   narrow.min_vertices = narrow.max_vertices = 12;
   for (int seed = 0; seed < 30; ++seed)
     CHECK(make_grain(narrow, 1.0, seed).shape.face_count() == 20);
-  GrainShapeSettings bad;
-  bad.min_vertices = 3;
-  CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
-  bad = {};
-  bad.max_vertices = 7;
-  CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
-  bad = {};
-  bad.flatness_min = 0.0;
-  CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
-  bad = {};
-  bad.roughness = std::nan("");
-  CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
-  CHECK_THROWS_AS(make_grain({}, 0.0, 0), std::invalid_argument);
-  CHECK_THROWS_AS(make_grain({}, std::nan(""), 0), std::invalid_argument);
+  for (const GrainShapeSettings& bad : {GrainShapeSettings{.min_vertices = 3},
+                                        {.max_vertices = 7},
+                                        {.flatness_min = 0.0},
+                                        {.roughness = std::nan("")}})
+    CHECK_THROWS_AS(make_grain(bad, 1.0, 0), std::invalid_argument);
+  for (const double radius : {0.0, std::nan("")})
+    CHECK_THROWS_AS(make_grain({}, radius, 0), std::invalid_argument);
 }
 
 TEST_CASE("spheres") {
@@ -128,13 +121,9 @@ TEST_CASE("a sample has the paper's classes, mixed") {
 }
 
 TEST_CASE("distributions that make no sense are refused") {
-  const auto make = [](const std::vector<SizeClass>& d) {
-    return make_grains(3, d, SizeConvention::radius, {}, 1);
-  };
-  CHECK_THROWS_AS(make({{0.02, 0.5}}), std::invalid_argument);
-  CHECK_THROWS_AS(make({}), std::invalid_argument);
-  CHECK_THROWS_AS(make({{0.02, 1.5}, {0.03, -0.5}}), std::invalid_argument);
-  CHECK_THROWS_AS(make({{-0.02, 1.0}}), std::invalid_argument);
+  for (const auto& classes : std::vector<std::vector<SizeClass>>{
+           {{0.02, 0.5}}, {}, {{0.02, 1.5}, {0.03, -0.5}}, {{-0.02, 1.0}}})
+    CHECK_THROWS_AS(make_grains(3, classes, SizeConvention::radius, {}, 1), std::invalid_argument);
   CHECK_THROWS_AS(make_grains(-1, paper_size_distribution(), SizeConvention::radius, {}, 1),
                   std::invalid_argument);
 }
