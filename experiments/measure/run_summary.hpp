@@ -1,5 +1,5 @@
 #pragma once
-// A run in numbers, computed once: what its page, the rows of a campaign (run_columns.hpp) and the
+// A run in numbers, computed once: what its page, the rows of a campaign (paper_data.hpp) and the
 // figures of the paper state. Pure functions of the record, each defined once. NaN: not known.
 //
 // clang-format off

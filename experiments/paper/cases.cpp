@@ -29,27 +29,7 @@ constexpr StageColumn stage_columns[] = {
     {"t~90~ (s)", 1.0, time90_of},
     {"error (g·h)", 1.0, [](const RunRow& run) { return run["error"]; }}};
 
-bool has_word(const RunRow& row, const char* word) {
-  return row.name.find(word) != std::string::npos;
-}
-bool is_deposit(const RunRow& row, bool is_pressed, double friction) {
-  return (row["lid_pressure"] > 0.0) == is_pressed && row["deposit_friction"] == friction;
-}
-/// Rows of 23 November 2026 and before: two hundred iterations a step, whatever the error.
-bool is_of_200(const RunRow& row) { return row["iterations_most"] == 200.0; }
-bool is_load(const RunRow& row, double force, bool is_half) {
-  return std::abs(force_of(row) / force - 1.0) < 1e-6 && (row["largest_size"] < 0.04) == is_half;
-}
-bool is_of_size(const RunRow& row, const char* word) {
-  return row.stage == "sizes"
-             ? has_word(row, word)
-             : is_deposit(row, true, 0.4) && frequency_of(row) == 5.0 && is_of_200(row);
-}
-bool is_usual(const RunRow& row) {
-  return row["friction"] == 0.4 && row["lid_raise"] == 0.01 && row["largest_size"] == 0.05 &&
-         (row.solver == "nesterov_pgs" || row.solver == "nncg");
-}
-
+/// A table of what some cases come to.
 struct CaseTable {
   const char* section;
   RunMeasure along;  ///< what the rows of a case are at
@@ -61,83 +41,89 @@ struct CaseTable {
 
 using Row = const RunRow&;
 
-/// How the frequencies are driven, and how accurately their steps are solved.
-std::vector<CaseTable> solution_tables() {
-  // one of the older rows of deposits stands under the stage that asked for it first
-  const auto is_old_plain = [](Row r) {
-    return is_deposit(r, true, 0.4) && is_of_200(r) &&
-           (r.stage == "deposits" || frequency_of(r) == 10.0);
-  };
-  const std::vector<Selection> accuracies{
-      {"error ≤ 1e-2 g·h", {"tight"}},
-      {"error ≤ 1e-3 g·h", {"tightest"}},
-      {"LMGC90’s rule", {"rule"}},
-      {"200 iterations a step", {"deposits", "looseness"}, is_old_plain},
-      {"the campaign’s own", {"frequency"}}};
-  const std::vector<Selection> contact_laws{
-      {"Coulomb’s law", {"laws"}, [](Row r) { return r.solver != "sap"; }},
-      {"its convex relaxation", {"laws"}, [](Row r) { return r.solver == "sap"; }}};
-  return {{"fig9", frequency_of, " Hz", {{"ν", {"frequency", "slowest"}}}},
-          {"tight", frequency_of, " Hz", accuracies, frequency_of, true},
-          {"laws", frequency_of, " Hz", contact_laws, nullptr, true},
-          {"reading", frequency_of, " Hz", {{"vibrated_box_paper", {"reading"}}}}};
-}
-
-/// Other packings: how they were deposited, and of what grains.
-std::vector<CaseTable> packing_tables() {
-  const auto is_plain = [](Row r) {
-    return is_deposit(r, true, 0.4) &&
-           (r.stage == "deposits" || (is_of_200(r) && frequency_of(r) == 10.0));
-  };
-  const auto is_usual_shape = [](Row r) {
-    return r.stage == "shapes" ? has_word(r, "base") : is_deposit(r, true, 0.4) && is_of_200(r);
-  };
-  const std::vector<Selection> deposits{
-      {"lid pressed, μ 0.4", {"deposits", "looseness"}, is_plain},
-      {"lid pressed, μ 0.8", {"deposits"}, [](Row r) { return is_deposit(r, true, 0.8); }},
-      {"lid placed, μ 0.4", {"deposits"}, [](Row r) { return is_deposit(r, false, 0.4); }},
-      {"lid placed, μ 0.8", {"deposits"}, [](Row r) { return is_deposit(r, false, 0.8); }}};
-  const std::vector<Selection> shapes{
-      {"as the campaign’s", {"shapes", "deposits"}, is_usual_shape},
-      {"angular and platy", {"shapes"}, [](Row r) { return has_word(r, "platy"); }},
-      {"spheres of 162 vertices", {"shapes"}, [](Row r) { return has_word(r, "spheres"); }},
-      {"fractions by mass", {"shapes"}, [](Row r) { return has_word(r, "mass"); }}};
-  return {{"deposits", frequency_of, " Hz", deposits, frequency_of, true},
-          {"shapes", frequency_of, " Hz", shapes, nullptr, true}};
-}
-
-/// Other boxes and other loads.
-std::vector<CaseTable> box_tables() {
-  const RunMeasure length = [](const RunRow& run) { return run["length"]; };
-  const RunMeasure side = [](const RunRow& run) { return std::cbrt(grains_of(run)); };
-  const std::vector<Selection> lengths{
-      {"5 Hz", {"box"}, [](Row r) { return frequency_of(r) == 5.0; }},
-      {"20 Hz", {"box"}, [](Row r) { return frequency_of(r) == 20.0; }}};
-  const std::vector<Selection> loads{
-      {"f_max = 6 m g", {"loads"}, [](Row r) { return is_load(r, 6.0, false); }},
-      {"f_max = 12 m g", {"loads"}, [](Row r) { return is_load(r, 12.0, false); }},
-      {"f_max = 6 m g, all at half scale", {"loads"}, [](Row r) { return is_load(r, 6.0, true); }}};
-  const auto is_similar = [](Row r) { return is_of_size(r, "similar"); };
-  const auto is_wider = [](Row r) { return is_of_size(r, "wide"); };
-  const std::vector<Selection> sizes{
-      {"similar boxes, H/L fixed", {"sizes", "deposits"}, is_similar},
-      {"wider boxes, H/d fixed", {"sizes", "deposits"}, is_wider}};
-  return {{"box", length, " m", lengths, aspect_of},
-          {"loads", frequency_of, " Hz", loads},
-          {"sizes", grains_of, "", sizes, side}};
-}
-
-/// What has to be chosen, each alone.
-std::vector<CaseTable> sensitivity_tables() {
-  const RunMeasure step = [](const RunRow& run) { return run["step"]; };
-  const RunMeasure friction = [](const RunRow& run) { return run["friction"]; };
-  const RunMeasure gap = [](const RunRow& run) { return run["lid_raise"]; };
-  const auto is_other_friction = [](Row r) { return r["friction"] != 0.4; };
-  const auto is_other_gap = [](Row r) { return r["lid_raise"] != 0.01; };
-  return {{"sensitivity", step, " s", {{"step h", {"sensitivity"}, is_usual}}},
-          {"sensitivity", friction, "", {{"friction μ", {"sensitivity"}, is_other_friction}}},
-          {"sensitivity", gap, " m", {{"gap under the lid", {"sensitivity"}, is_other_gap}}}};
-}
+/// In the order of a section's tables. Rows of 23 November 2026 and before are recognised by their
+/// two hundred iterations a step, whatever the error: one of them stands under the stage that asked
+/// for it first.
+const CaseTable case_tables[] = {
+    {"fig9", frequency_of, " Hz", {{"ν", "frequency; slowest"}}},
+    {"tight",
+     frequency_of,
+     " Hz",
+     {{"error ≤ 1e-2 g·h", "tight"},
+      {"error ≤ 1e-3 g·h", "tightest"},
+      {"LMGC90’s rule", "rule"},
+      {"200 iterations a step",
+       "deposits lid_pressure>0 deposit_friction=0.4 iterations_most=200;"
+       "looseness lid_pressure>0 deposit_friction=0.4 iterations_most=200 frequency=10"},
+      {"the campaign’s own", "frequency"}},
+     frequency_of,
+     true},
+    {"laws",
+     frequency_of,
+     " Hz",
+     {{"Coulomb’s law", "laws solver!sap"}, {"its convex relaxation", "laws solver=sap"}},
+     nullptr,
+     true},
+    {"reading", frequency_of, " Hz", {{"vibrated_box_paper", "reading"}}},
+    // other packings: how they were deposited, and of what grains
+    {"deposits",
+     frequency_of,
+     " Hz",
+     {{"lid pressed, μ 0.4",
+       "deposits lid_pressure>0 deposit_friction=0.4;"
+       "looseness lid_pressure>0 deposit_friction=0.4 iterations_most=200 frequency=10"},
+      {"lid pressed, μ 0.8", "deposits lid_pressure>0 deposit_friction=0.8"},
+      {"lid placed, μ 0.4", "deposits lid_pressure=0 deposit_friction=0.4"},
+      {"lid placed, μ 0.8", "deposits lid_pressure=0 deposit_friction=0.8"}},
+     frequency_of,
+     true},
+    {"shapes",
+     frequency_of,
+     " Hz",
+     {{"as the campaign’s",
+       "shapes name~base; deposits lid_pressure>0 deposit_friction=0.4 iterations_most=200"},
+      {"angular and platy", "shapes name~platy"},
+      {"spheres of 162 vertices", "shapes name~spheres"},
+      {"fractions by mass", "shapes name~mass"}},
+     nullptr,
+     true},
+    // other boxes and other loads
+    {"box",
+     [](Row run) { return run["length"]; },
+     " m",
+     {{"5 Hz", "box frequency=5"}, {"20 Hz", "box frequency=20"}},
+     aspect_of},
+    {"loads",
+     frequency_of,
+     " Hz",
+     {{"f_max = 6 m g", "loads force_over_weight=6 largest_size>0.04"},
+      {"f_max = 12 m g", "loads force_over_weight=12 largest_size>0.04"},
+      {"f_max = 6 m g, all at half scale", "loads force_over_weight=6 largest_size<0.04"}}},
+    {"sizes",
+     grains_of,
+     "",
+     {{"similar boxes, H/L fixed",
+       "sizes name~similar;"
+       "deposits lid_pressure>0 deposit_friction=0.4 frequency=5 iterations_most=200"},
+      {"wider boxes, H/d fixed",
+       "sizes name~wide;"
+       "deposits lid_pressure>0 deposit_friction=0.4 frequency=5 iterations_most=200"}},
+     [](Row run) { return std::cbrt(grains_of(run)); }},
+    // what has to be chosen, each alone
+    {"sensitivity",
+     [](Row run) { return run["step"]; },
+     " s",
+     {{"step h",
+       "sensitivity friction=0.4 lid_raise=0.01 largest_size=0.05 solver=nesterov_pgs;"
+       "sensitivity friction=0.4 lid_raise=0.01 largest_size=0.05 solver=nncg"}}},
+    {"sensitivity",
+     [](Row run) { return run["friction"]; },
+     "",
+     {{"friction μ", "sensitivity friction!0.4"}}},
+    {"sensitivity",
+     [](Row run) { return run["lid_raise"]; },
+     " m",
+     {{"gap under the lid", "sensitivity lid_raise!0.01"}}}};
 
 /// A case that has rows.
 struct Case {
@@ -284,16 +270,13 @@ void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
 }  // namespace
 
 void add_cases(PaperData& data, PaperSection& section) {
-  static const std::vector<CaseTable> kinds[] = {solution_tables(), packing_tables(), box_tables(),
-                                                 sensitivity_tables()};
-  for (const auto& tables : kinds)
-    for (const CaseTable& what : tables)
-      if (section.id == what.section) add_table(data, what, section);
+  for (const CaseTable& what : case_tables)
+    if (section.id == what.section) add_table(data, what, section);
 }
 
 void fill_replicas(PaperData& data, PaperSection& section) {
   Group slow, fast;
-  for (const RunRow* row : data.rows({"", {"replicas"}})) {
+  for (const RunRow* row : data.rows({"", "replicas"})) {
     if (frequency_of(*row) == 10.0) slow.samples.push_back(row);
     if (frequency_of(*row) == 60.0) fast.samples.push_back(row);
   }
@@ -315,10 +298,10 @@ void fill_replicas(PaperData& data, PaperSection& section) {
 }
 
 void fill_reading(PaperData& data, PaperSection& section) {
-  const Groups reading = data.groups({"", {"reading"}}, frequency_of);
+  const Groups reading = data.groups({"", "reading"}, frequency_of);
   if (reading.empty()) return;
   // only frequencies that both scenes were driven at
-  Groups base = data.groups({"", {"frequency", "slowest"}}, frequency_of);
+  Groups base = data.groups({"", "frequency; slowest"}, frequency_of);
   std::erase_if(base, [&](const Group& group) { return !at(reading, group.value); });
   page::Table table = page::words_table("reading.table");
   int agree[2] = {0, 0};

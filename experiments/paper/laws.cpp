@@ -210,52 +210,43 @@ struct Law {
   bool is_of_paper() const { return std::string_view(section).starts_with("fig"); }
 };
 
-constexpr Axis rise_axis{rise_of, "Δ{/:Italic x}_{max}  (mm)", 1e3},
-    prefactor_axis{prefactor_of, "{/:Italic C} = Δ{/:Italic x}_{max} / {/:Italic X}", 1.0};
-
-/// Figs. 9 to 11.
-std::vector<Law> paper_laws() {
+/// Figs. 9 to 11, then C along the shape of the box, and against its theory.
+std::vector<Law> all_laws() {
+  using enum MarkShape;
   const auto series = all_series();
-  const Axis frequency{frequency_of, "{/:Italic ν}  (Hz)", 1.0},
+  const Axis rise{rise_of, "Δ{/:Italic x}_{max}  (mm)", 1e3},
+      prefactor{prefactor_of, "{/:Italic C} = Δ{/:Italic x}_{max} / {/:Italic X}", 1.0},
+      frequency{frequency_of, "{/:Italic ν}  (Hz)", 1.0},
       speed{speed_of, "{/:Italic v}_{max}  (mm/s)", 1e3},
       force{series[1].along, "{/:Italic f}_{max} / ({/:Italic m g})", 1.0},
       gravity{series[2].along, "{/:Italic g}  (m/s^2)", 1.0},
       mass{series[3].along, "{/:Italic m} / ({/:Italic m} + {/:Italic m}_w)", 1.0},
-      eq3{eq3_of, "right side of Eq. 3 without {/:Italic C}  (mm)", 1e3};
-  const std::vector<Series> all(series.begin(), series.end());
-  return {{"fig9", "fig9", {all[0]}, frequency, rise_axis, -2.0, 10.0},
-          {"fig9", "fig9_speed", {all[0]}, frequency, speed, -1.0, 10.0},
-          {"fig10", "fig10", {all[1]}, force, rise_axis, -1.0, 3.0},
-          {"fig10", "fig10_gravity", {all[2]}, gravity, rise_axis, 2.0, 5.0},
-          {"fig10", "fig10_mass", {all[3]}, mass, rise_axis, 1.0, 0.6},
-          {"fig11", "fig11", all, eq3, rise_axis, 1.0, 10.0, paper::prefactor}};
-}
-
-/// C along the shape of the box, and against its theory.
-std::vector<Law> prefactor_laws() {
-  using enum MarkShape;
-  const auto is_slow = [](const RunRow& row) { return frequency_of(row) == 5.0; };
-  const auto is_fast = [](const RunRow& row) { return frequency_of(row) == 20.0; };
-  const auto is_pressed = [](const RunRow& row) {
-    return row.stage != "deposits" || (row["lid_pressure"] > 0.0 && row["deposit_friction"] == 0.4);
-  };
-  const Axis aspect{aspect_of, "{/:Italic L}/{/:Italic H}", 1.0},
+      eq3{eq3_of, "right side of Eq. 3 without {/:Italic C}  (mm)", 1e3},
+      aspect{aspect_of, "{/:Italic L}/{/:Italic H}", 1.0},
       theory{theory_of, "{/:Italic C} by the theory, from the force as measured", 1.0};
-  const Selection slow{"5 Hz", {"box"}, is_slow}, fast{"20 Hz", {"box"}, is_fast},
-      pressed{"ν", {"frequency", "slowest", "deposits", "tight", "tightest"}, is_pressed};
+  const std::vector<Series> all(series.begin(), series.end());
+  const Selection slow{"5 Hz", "box frequency=5"}, fast{"20 Hz", "box frequency=20"},
+      pressed{"ν",
+              "frequency; slowest; tight; tightest; deposits lid_pressure>0 deposit_friction=0.4"};
   // a run of several families is a point of the first
-  std::vector<Series> all{{pressed, Ink::blue}};
-  constexpr std::pair<Ink, MarkShape> looks[] = {
-      {Ink::vermilion, triangle}, {Ink::green, square}, {Ink::purple, diamond}};
-  for (size_t k = 0; k < std::size(looks); ++k)
-    all.push_back({all_series()[k + 1].selection, looks[k].first, looks[k].second});
-  all.push_back({{"L/H", {"box"}}, Ink::orange});
-  all.push_back({{"light wall", {"loads"}}, Ink::black, triangle});
-  all.push_back({{"deposit", {"deposits"}}, Ink::grey, square});
-  all.push_back({{"grains, size", {"shapes", "sizes", "reading"}}, Ink::sky, diamond});
-  return {{"box", "box_slow", {{slow, Ink::blue}}, aspect, prefactor_axis, -1.0, 1.5},
-          {"box", "box_fast", {{fast, Ink::vermilion}}, aspect, prefactor_axis, -1.0, 1.5},
-          {"theory", "theory", all, theory, prefactor_axis, 1.0, not_known, 1.0}};
+  const std::vector<Series> everything{
+      {pressed, Ink::blue},
+      {all[1].selection, Ink::vermilion, triangle},
+      {all[2].selection, Ink::green, square},
+      {all[3].selection, Ink::purple, diamond},
+      {{"L/H", "box"}, Ink::orange},
+      {{"light wall", "loads"}, Ink::black, triangle},
+      {{"deposit", "deposits"}, Ink::grey, square},
+      {{"grains, size", "shapes; sizes; reading"}, Ink::sky, diamond}};
+  return {{"fig9", "fig9", {all[0]}, frequency, rise, -2.0, 10.0},
+          {"fig9", "fig9_speed", {all[0]}, frequency, speed, -1.0, 10.0},
+          {"fig10", "fig10", {all[1]}, force, rise, -1.0, 3.0},
+          {"fig10", "fig10_gravity", {all[2]}, gravity, rise, 2.0, 5.0},
+          {"fig10", "fig10_mass", {all[3]}, mass, rise, 1.0, 0.6},
+          {"fig11", "fig11", all, eq3, rise, 1.0, 10.0, paper::prefactor},
+          {"box", "box_slow", {{slow, Ink::blue}}, aspect, prefactor, -1.0, 1.5},
+          {"box", "box_fast", {{fast, Ink::vermilion}}, aspect, prefactor, -1.0, 1.5},
+          {"theory", "theory", everything, theory, prefactor, 1.0, not_known, 1.0}};
 }
 
 /// Exponent over part of the points: a law that bends has two.
@@ -336,17 +327,15 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
 
 std::span<const Series> all_series() {
   using Row = const RunRow&;
-  // Rows of 23 November 2026 and before have g and m_w in one stage.
-  const auto is_of_gravity = [](Row r) { return r.stage == "gravity" || r["gravity"] != 9.81; };
-  const auto is_of_mass = [](Row r) { return r.stage == "mass" || r["gravity"] == 9.81; };
+  using enum MarkShape;
   const RunMeasure gravity = [](Row r) { return r["gravity"]; };
   const RunMeasure mass = [](Row r) { return 1.0 / (1.0 + r["wall_mass_over_grains"]); };
-  using enum MarkShape;
+  // rows of 23 November 2026 and before have g and m_w in one stage
   static const std::vector<Series> all{
-      {{"ν", {"frequency", "slowest"}}, Ink::blue, triangle, frequency_of, "ν"},
-      {{"f_max", {"force"}}, Ink::vermilion, circle, force_of, "f_{max}"},
-      {{"g", {"gravity", "gravity-mass"}, is_of_gravity}, Ink::green, square, gravity, "g"},
-      {{"m_w", {"mass", "gravity-mass"}, is_of_mass}, Ink::purple, diamond, mass, "m_w"}};
+      {{"ν", "frequency; slowest"}, Ink::blue, triangle, frequency_of, "ν"},
+      {{"f_max", "force"}, Ink::vermilion, circle, force_of, "f_{max}"},
+      {{"g", "gravity; gravity-mass gravity!9.81"}, Ink::green, square, gravity, "g"},
+      {{"m_w", "mass; gravity-mass gravity=9.81"}, Ink::purple, diamond, mass, "m_w"}};
   return all;
 }
 
@@ -414,10 +403,9 @@ void fill_curve(PaperData& data, PaperSection& section) {
 
 void add_laws(PaperData& data, PaperSection& section) {
   page::Table table = page::words_table("laws");
-  static const std::vector<Law> kinds[] = {paper_laws(), prefactor_laws()};
-  for (const auto& laws : kinds)
-    for (const Law& law : laws)
-      if (section.id == law.section) add_law(data, law, table, section);
+  static const std::vector<Law> laws = all_laws();
+  for (const Law& law : laws)
+    if (section.id == law.section) add_law(data, law, table, section);
   if (!table.rows.empty()) section.text.push_back(page::words("misfit"));
   section.add(std::move(table));
 }

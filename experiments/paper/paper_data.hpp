@@ -6,11 +6,14 @@
 // was varied, each with its samples: the seeds. Figures draw means over samples; what compares two
 // groups compares every sample with itself.
 
+#include <filesystem>
 #include <map>
-#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "experiments/measure/curve_fit.hpp"
-#include "experiments/measure/run_columns.hpp"
 #include "experiments/measure/run_data.hpp"
 #include "experiments/plans/plan.hpp"
 
@@ -32,6 +35,46 @@ struct CampaignRun {
 
 /// Stage by stage, the most important first. Throws SceneFileError naming plan, run, key and value.
 std::vector<CampaignRun> read_campaign(const CampaignSettings& settings);
+
+/// A number of a run. NaN: not known in this run.
+struct RunColumn {
+  const char* name;  ///< snake_case
+  const char* unit;  ///< "1" without one
+  const char* meaning;
+  double (*value)(const RunSummary& run);
+};
+/// The columns of runs.csv after the texts name, stage, key, record, solver.
+std::span<const RunColumn> run_columns();
+
+struct RunRow {
+  std::string name, stage;  ///< of the campaign
+  std::string key;          ///< of the resolved scene: the folder of the record
+  std::string record;  ///< hash of the record's steps without wall clock: equal runs, equal hash
+  std::string solver;
+  std::vector<double> numbers;  ///< as run_columns()
+
+  /// Nothing is known yet.
+  RunRow();
+  explicit RunRow(const RunSummary& run);
+  /// The number of a column; there must be one of this name (std::invalid_argument).
+  double operator[](std::string_view column) const { return numbers[place_of(column)]; }
+  double& operator[](std::string_view column) { return numbers[place_of(column)]; }
+
+ private:
+  static size_t place_of(std::string_view column);
+};
+
+/// Names, then units, then one row a run.
+std::string runs_csv(std::span<const RunRow> rows);
+/// Reads such a table, of this or an earlier version: what a column means that is not known here is
+/// left out, and a column that is not in it is not known. Throws Error naming file, line and
+/// column where it is none.
+std::vector<RunRow> read_runs_csv(const std::filesystem::path& file);
+/// The columns and what they mean, as CSV: column, unit, description.
+std::string run_columns_csv();
+
+/// Of all columns of the steps but wall clock, to the last bit.
+std::string record_hash(std::span<const StepRecord> steps);
 
 /// A number of a run: a column of runs.csv, or what follows from it. SI units; NaN: not known.
 using RunMeasure = double (*)(const RunRow& run);
@@ -55,11 +98,12 @@ inline double relative_gain_of(const RunRow& run) {
 inline double rate_of(const RunRow& run) { return run["rate"]; }  ///< the paper's window [1/s]
 inline double common_rate_of(const RunRow& run) { return run["rate_common"]; }
 
-/// Rows of these stages for which `holds` (null: all of them).
+/// Rows of some stages, each with what its rows must say: "force; sizes name~wide grains>600".
+/// A number is =, ! (another), < or > (to six digits), the solver = or !, and the name holds a
+/// part.
 struct Selection {
   const char* name;  ///< a case of a table, a series of a figure
-  std::vector<const char*> stages;
-  bool (*holds)(const RunRow& row) = nullptr;
+  std::string rows;
 };
 
 /// One value of what is varied.
