@@ -73,7 +73,7 @@ TEST_CASE(
   const Stopwatch watch;
   REQUIRE(run_and_kill(200.0, fig3(whole), log) == 0);
   const double undisturbed = watch.seconds();
-  const auto states = stored_states(folder_of(whole, run));
+  const auto states = stored_states(run_folder(whole, run));
   REQUIRE(states.size() > 90);  // 1 s at 100 Hz
 
   const int limited =
@@ -91,8 +91,8 @@ TEST_CASE(
   }
   INFO(kills << " kills, undisturbed " << undisturbed << " s");
   CHECK(kills > 0);
-  CHECK(physics_of(folder_of(killed, run)) == physics_of(folder_of(whole, run)));
-  CHECK(state_of(folder_of(killed, run)) == state_of(folder_of(whole, run)));
-  CHECK((stored_states(folder_of(killed, run)) == states));
+  CHECK(physics_of(run_folder(killed, run)) == physics_of(run_folder(whole, run)));
+  CHECK(state_of(run_folder(killed, run)) == state_of(run_folder(whole, run)));
+  CHECK((stored_states(run_folder(killed, run)) == states));
   CHECK(report_of(killed) == report_of(whole));
 }

@@ -61,7 +61,7 @@ inline std::vector<StepRecord> scaled_record(const Scene& scene, const PaperLaw&
 inline void write_run(const std::filesystem::path& results, const PlannedRun& run,
                       const PaperLaw& law = {}) {
   const double mass = 200.0;
-  const std::filesystem::path folder = folder_of(results, run);
+  const std::filesystem::path folder = run_folder(results, run);
   std::filesystem::create_directories(folder);
   const auto file = find_scene(run.scene);
   const Scene scene = read_scene(file, run.overrides);
