@@ -60,6 +60,8 @@ TEST_CASE("velocities agree with dense matrices") {
     contact_velocity(problem, r, u);
     const Eigen::VectorXd expected = oracle::dense_delassus(problem) * r + oracle::dense_q(problem);
     CHECK((u - expected).norm() < 1e-12 * expected.norm());
+    contact_velocity(only_delassus(problem), r, u);
+    CHECK((u - expected).norm() < 1e-12 * expected.norm());
     body_velocity(problem.dynamics, problem.row_begin, r, v);
     CHECK((mass * (v - problem.dynamics.v_free) - h.transpose() * r).norm() < 1e-12 * r.norm());
     contact_to_body_impulse(problem.dynamics, problem.row_begin, r, p);
@@ -67,22 +69,6 @@ TEST_CASE("velocities agree with dense matrices") {
     CHECK((Eigen::MatrixXd(sparse_mass(problem.dynamics)) - mass).norm() == 0.0);
     CHECK((Eigen::MatrixXd(sparse_h(problem)) - h).norm() == 0.0);
   }
-}
-
-TEST_CASE("velocities from the stored Delassus form") {
-  FrictionProblem problem = oracle::mixed_problem();
-  problem.has_delassus = true;
-  problem.delassus.w = oracle::dense_delassus(problem).sparseView();
-  problem.delassus.q = oracle::dense_q(problem);
-  Eigen::VectorXd with_dynamics, without;
-  const Impulses r = some_impulses(problem.row_count());
-  contact_velocity(problem, r, with_dynamics);
-  problem.has_dynamics = false;
-  contact_velocity(problem, r, without);
-  CHECK((with_dynamics - without).norm() < 1e-12 * without.norm());
-  Eigen::VectorXd q;
-  free_contact_velocity(problem, q);
-  CHECK(q == problem.delassus.q);
 }
 
 TEST_CASE("impulses of the wrong size are refused") {

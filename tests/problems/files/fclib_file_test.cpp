@@ -19,6 +19,13 @@ TEST_CASE("each broken local file is refused with one line that says where") {
       replace(f, (std::string("/fclib_local/") + name).c_str(), values);
     };
   };
+  const auto entry = [](const char* path, size_t k, int value) {
+    return [=](const fs::path& f) {
+      std::vector<int> values = Hdf5Reader(f).read_ints(path);
+      values[k] = value;
+      replace(f, path, values);
+    };
+  };
   const auto without = [](const char* path) { return [=](const fs::path& f) { remove(f, path); }; };
   const Damage damages[] = {
       {"not an HDF5 file", [](const fs::path& f) { write_text(f, "not a problem"); }},
@@ -43,6 +50,9 @@ TEST_CASE("each broken local file is refused with one line that says where") {
       {"/fclib_local/W/nz = -5", with("W/nz", std::vector<int>{-5})},
       {"/fclib_local/W/p has 2 entries, must have 19", with("W/p", std::vector<int>{0, 0})},
       {"/fclib_local/W/i has 3 entries", with("W/i", std::vector<int>{0, 1, 2})},
+      {"/fclib_local/W: entry 4 at (0, -1) is outside 18 x 18", entry("/fclib_local/W/i", 4, -1)},
+      {"/fclib_local/W: entry 4 at (0, 18) is outside 18 x 18", entry("/fclib_local/W/i", 4, 18)},
+      {"/fclib_local/W/p[3] = -4 decreases", entry("/fclib_local/W/p", 3, -4)},
       {"/fclib_local/W/x: claims 2000000000 entries, of which 0 bytes are stored",
        [](const fs::path& f) { claim(f, "/fclib_local/W/x", 2000000000); }},
       {"/fclib_local/vectors/q: claims 2000000000 entries",
@@ -75,28 +85,6 @@ TEST_CASE("each broken local file is refused with one line that says where") {
     CAPTURE(text, damage.says);
     CHECK(text.rfind(damage.says, 0) == 0);
   }
-}
-
-TEST_CASE("indices out of range are refused") {
-  const Folder folder;
-  const fs::path file = folder / "indices.hdf5";
-  const FrictionProblem problem = only_delassus(small().problem);
-  write_problem(file, problem);
-  std::vector<int> i = Hdf5Reader(file).read_ints("/fclib_local/W/i");
-  std::vector<int> p = Hdf5Reader(file).read_ints("/fclib_local/W/p");
-  const int good = i[4];
-  for (const int bad : {-1, 18}) {
-    i[4] = bad;
-    replace(file, "/fclib_local/W/i", i);
-    const std::string text = complaint(file);
-    CHECK(text.rfind("/fclib_local/W: entry 4 at (", 0) == 0);
-    CHECK(text.find(", " + std::to_string(bad) + ") is outside 18 x 18") != std::string::npos);
-  }
-  i[4] = good;
-  replace(file, "/fclib_local/W/i", i);
-  p[3] = -4;
-  replace(file, "/fclib_local/W/p", p);
-  CHECK(complaint(file).rfind("/fclib_local/W/p[3] = -4 decreases", 0) == 0);
 }
 
 TEST_CASE("the entries of a row may stand in any order") {

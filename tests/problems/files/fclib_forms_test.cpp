@@ -3,22 +3,12 @@
 #include "problems/files/fclib_file.hpp"
 
 #include "platform/random.hpp"
-#include "problems/algebra/delassus.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
-#include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
 
 namespace {
-
-FrictionProblem sample(double frictionless) {
-  return make_known_solution({.bodies = 5,
-                              .contacts = 9,
-                              .friction_min = 0.1,
-                              .frictionless_fraction = frictionless})
-      .problem;
-}
 
 /// Unit masses, and contacts that touch the unknowns given.
 GlobalProblem unit_masses(int unknowns, const std::vector<std::vector<int>>& touched) {
@@ -54,7 +44,8 @@ void check_same_law(const GlobalProblem& global, const FrictionProblem& problem)
 }  // namespace
 
 TEST_CASE("bodies survive the way through a global problem") {
-  const FrictionProblem problem = sample(0.0);
+  const FrictionProblem problem =
+      make_known_solution({.bodies = 5, .contacts = 9, .frictionless_fraction = 0.0}).problem;
   const GlobalProblem global = to_global_problem(problem);
   const FrictionProblem back = to_friction_problem(global);
   REQUIRE(back.has_dynamics);
@@ -64,25 +55,6 @@ TEST_CASE("bodies survive the way through a global problem") {
   back.validate();
   check_same_law(global, back);
   check_same_law(global, problem);
-}
-
-TEST_CASE("one-row contacts get tangents without effect") {
-  FrictionProblem problem = sample(0.6);
-  REQUIRE(problem.row_count() < 3 * problem.contact_count());
-  const GlobalProblem global = to_global_problem(problem);
-  add_delassus_form(problem);
-  const FrictionProblem local = condensed(problem);
-  REQUIRE(local.row_count() == 3 * problem.contact_count());
-  local.validate();
-  for (int c = 0; c < problem.contact_count(); ++c) {
-    if (problem.contact_rows(c) == 3) continue;
-    CHECK(problem.friction[c] == 0.0);
-    for (const int row : {3 * c + 1, 3 * c + 2}) {
-      CHECK(Eigen::VectorXd(local.delassus.w.row(row).transpose()).norm() == 0.0);
-      CHECK(local.delassus.q[row] == 0.0);
-      CHECK(Eigen::VectorXd(global.h.col(row)).norm() == 0.0);
-    }
-  }
 }
 
 TEST_CASE("unknowns are grouped by six, or else by three") {
@@ -132,27 +104,24 @@ TEST_CASE("stored zeros touch no body and couple none") {
   CHECK(to_friction_problem(global).has_dynamics);
 }
 
-TEST_CASE("a mass that is none is refused") {
-  GlobalProblem global = unit_masses(6, {{0}});
-  global.m.coeffRef(0, 0) = -1.0;
-  CHECK_THROWS_WITH(to_friction_problem(global), Catch::Contains("M(0, 0) = -1"));
-  GlobalProblem singular = unit_masses(8, {{0}});
-  singular.m.coeffRef(3, 3) = 0.0;
-  CHECK_THROWS_WITH(to_friction_problem(singular), Catch::Contains("M is singular"));
-}
-
-TEST_CASE("a mass that is not symmetric or not definite is refused with bodies and without") {
-  // A body's block: the lower triangle alone would be taken for the whole.
-  GlobalProblem asymmetric = unit_masses(6, {{0}});
-  asymmetric.m.coeffRef(0, 1) = 0.5;
-  CHECK_THROWS_WITH(to_friction_problem(asymmetric).validate(),
-                    Catch::Contains("dynamics.mass[1] = ") || Catch::Contains("dynamics.mass[6]"));
-  GlobalProblem indefinite = unit_masses(6, {{0}});
-  indefinite.m.coeffRef(0, 1) = indefinite.m.coeffRef(1, 0) = 2.0;  // eigenvalues -1 and 3
-  CHECK_THROWS_WITH(to_friction_problem(indefinite), Catch::Contains("not positive definite"));
-  // Eight unknowns are no bodies: W shows it.
-  GlobalProblem condensed = unit_masses(8, {{3}});
-  condensed.m.coeffRef(3, 3) = -1.0;
-  CHECK_THROWS_WITH(to_friction_problem(condensed).validate(),
-                    Catch::Contains("delassus.w(0, 0) = -16 is negative"));
+TEST_CASE(
+    "a mass that is none, not symmetric or not definite is refused, with bodies and without") {
+  struct Wrong {
+    int unknowns, touched;
+    std::vector<Eigen::Triplet<double>> entries;
+    const char* says;
+  };
+  const Wrong wrongs[] = {
+      {6, 0, {{0, 0, -1.0}}, "M(0, 0) = -1"},
+      {8, 0, {{3, 3, 0.0}}, "M is singular"},
+      // A body's block: the lower triangle alone would be taken for the whole.
+      {6, 0, {{0, 1, 0.5}}, "dynamics.mass["},
+      {6, 0, {{0, 1, 2.0}, {1, 0, 2.0}}, "not positive definite"},  // eigenvalues -1 and 3
+      // Eight unknowns are no bodies: W shows it.
+      {8, 3, {{3, 3, -1.0}}, "delassus.w(0, 0) = -16 is negative"}};
+  for (const auto& [unknowns, touched, entries, says] : wrongs) {
+    GlobalProblem global = unit_masses(unknowns, {{touched}});
+    for (const auto& entry : entries) global.m.coeffRef(entry.row(), entry.col()) = entry.value();
+    CHECK_THROWS_WITH(to_friction_problem(global).validate(), Catch::Contains(says));
+  }
 }

@@ -46,31 +46,26 @@ inline void write_text(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-/// The dataset replaced by other numbers, or removed when `values` is null.
-template <typename Value>
-void replace(const fs::path& file, const char* path, const std::vector<Value>* values) {
+inline void remove(const fs::path& file, const char* path) {
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  REQUIRE(id >= 0);
   REQUIRE(H5Ldelete(id, path, H5P_DEFAULT) >= 0);
-  if (values) {
-    const hid_t type = std::is_same_v<Value, int> ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
-    const hsize_t size = values->size();
-    const hid_t space = H5Screate_simple(1, &size, nullptr);
-    const hid_t data = H5Dcreate2(id, path, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    REQUIRE(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values->data()) >= 0);
-    H5Dclose(data);
-    H5Sclose(space);
-  }
   H5Fclose(id);
 }
 
-inline void replace(const fs::path& file, const char* path, std::vector<int> values) {
-  replace(file, path, &values);
+/// The dataset replaced by other numbers.
+template <typename Value>
+void replace(const fs::path& file, const char* path, const std::vector<Value>& values) {
+  remove(file, path);
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t type = std::is_same_v<Value, int> ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
+  const hsize_t size = values.size();
+  const hid_t space = H5Screate_simple(1, &size, nullptr);
+  const hid_t data = H5Dcreate2(id, path, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  REQUIRE(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
+  H5Dclose(data);
+  H5Sclose(space);
+  H5Fclose(id);
 }
-inline void replace(const fs::path& file, const char* path, std::vector<double> values) {
-  replace(file, path, &values);
-}
-inline void remove(const fs::path& file, const char* path) { replace<int>(file, path, nullptr); }
 
 /// The dataset replaced by one that claims so many numbers and has stored none: a few bytes.
 inline void claim(const fs::path& file, const char* path, hsize_t entries) {

@@ -143,16 +143,15 @@ TEST_CASE("each broken text is refused, with its line") {
 }
 
 TEST_CASE("sizes that the file cannot hold are refused before memory is asked for") {
-  // three times the contacts are no int any more
-  CHECK_THAT(complaint_of_text("3\n1500000000\n2\n3\n3\n"),
-             Catch::Contains("the number of contacts = 1500000000 is too large"));
-  CHECK_THAT(complaint_of_text("3\n700000000\n2\n3\n3\n"),
-             Catch::Contains("the file ends within the number of contacts"));
-  for (const char* storage : {"0", "1", "2"}) {
-    INFO(storage);
-    CHECK_THAT(complaint_of_text("3\n1\n" + std::string(storage) + "\n700000000\n700000000\n"),
-               Catch::Contains("the file ends within rows"));
-    CHECK_THAT(complaint_of_text("3\n1\n" + std::string(storage) + "\n2147483647\n3\n"),
-               Catch::Contains("rows = 2147483647 is too large"));
+  const std::string ends = "the file ends within ";
+  std::vector<std::pair<std::string, std::string>> wrongs = {
+      // three times the contacts are no int any more
+      {"3\n1500000000\n2\n3\n3\n", "the number of contacts = 1500000000 is too large"},
+      {"3\n700000000\n2\n3\n3\n", ends + "the number of contacts"}};
+  for (const std::string storage : {"0", "1", "2"}) {
+    wrongs.emplace_back("3\n1\n" + storage + "\n700000000\n700000000\n", ends + "rows");
+    wrongs.emplace_back("3\n1\n" + storage + "\n2147483647\n3\n", "rows = 2147483647 is too large");
   }
+  for (const auto& [text, says] : wrongs)
+    CHECK_THAT(complaint_of_text(text), Catch::Contains(says));
 }

@@ -48,8 +48,9 @@ MechanicalSystem cubes(const std::vector<Vec3>& places, MotionState& state) {
 }  // namespace
 
 TEST_CASE("bodies come before walls, with the freedom that each has") {
-  MotionState state;
-  const MechanicalSystem system = make_system(two_cubes_and_two_walls(), state);
+  MotionState state, none;
+  Scene scene = two_cubes_and_two_walls();
+  const MechanicalSystem system = make_system(scene, state);
   REQUIRE(system.bodies.size() == 4);
   CHECK(system.grain_count == 2);
   CHECK(system.mass_of_grains() == 5.0);
@@ -68,13 +69,8 @@ TEST_CASE("bodies come before walls, with the freedom that each has") {
   CHECK(state.pose[0].position == Vec3(0, 0, 1));
   CHECK(state.pose[3].position == Vec3(0.5, 0, 0));
   CHECK(contact_shapes(system).size() == 4);
-}
-
-TEST_CASE("a system without a driven wall says so") {
-  Scene scene = two_cubes_and_two_walls();
   scene.walls.pop_back();
-  MotionState state;
-  CHECK(make_system(scene, state).first_driven_wall() == -1);
+  CHECK(make_system(scene, none).first_driven_wall() == -1);
 }
 
 TEST_CASE("kinetic energy is of what can move") {

@@ -1,11 +1,28 @@
 #pragma once
-// Texts of scenes that several tests of the room begin with.
+// What several tests of scenes share: a text to begin with, and the error of a wrong one.
 
-#include <string>
+#include "problems/scene/scene_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace ballast {
 
 /// A wall is enough to be a scene.
 inline const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
+
+/// The message of the error, in one line, that reading the text must end in.
+inline std::string error_of(const TemporaryFolder& folder, const std::string& text,
+                            const std::vector<std::string>& overrides = {}) {
+  std::string message;
+  try {
+    read_scene(folder.write("scene.toml", text), overrides);
+  } catch (const SceneFileError& error) {
+    message = error.what();
+  }
+  INFO(text);
+  CHECK_THAT(message, Catch::StartsWith((folder.path() / "scene.toml").string()));
+  CHECK(message.find('\n') == std::string::npos);
+  return message;
+}
 
 }  // namespace ballast

@@ -6,10 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "problems/scene/scene_file.hpp"
-#include "tests/catch.hpp"
 #include "tests/problems/scene/scene_texts.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
 
@@ -41,13 +38,6 @@ TEST_CASE("what was read, defaults included, is the resolved table") {
   CHECK(toml_text(resolved) ==
         "a = 1.0\nb = 0.5\nlist = []\nn = 7\nname = \"x\"\non = true\nseed = 3\nword = \"two\"\n\n"
         "[part]\nv = [1.0, 2.0, 3.0]\n");
-}
-
-TEST_CASE("a range's ends count as it says") {
-  CHECK((!positive.contains(0.0) && not_negative.contains(0.0)));
-  CHECK((!part_of_one.contains(0.0) && part_of_one.contains(1.0)));
-  CHECK_FALSE(any_number.contains(std::numeric_limits<double>::infinity()));
-  CHECK_FALSE(any_number.contains(std::nan("")));
 }
 
 TEST_CASE("tables come sorted: keys, then tables, then lists of tables") {
@@ -82,23 +72,6 @@ TEST_CASE("a long value is cut in messages") {
   toml::table resolved;
   CHECK_THROWS_WITH(TomlTable("f.toml", table, resolved).fail("key", "wrong"),
                     Catch::Equals("f.toml: key = \"" + std::string(59, 'x') + "...: wrong"));
-}
-
-TEST_CASE("the resolved text keeps every bit and any text") {
-  const TemporaryFolder folder;
-  const std::string title = "quote \\\" backslash \\\\ tab \\t bell \\u0007 \xc3\xa9";
-  const auto file = folder.write(
-      "odd.toml", one_wall +
-                      "offset = 0.1000000000000000055511151231257827\n[scene]\nstep = 5e-324\n"
-                      "duration = 4e-312\ntitle = \"" +
-                      title + "\"\n[contact]\nfriction = 3\n");
-  const Scene first = read_scene(file);
-  const Scene again = read_scene(folder.write("again.toml", resolve_scene(file).text));
-  CHECK(again.step == first.step);
-  CHECK(again.title == first.title);
-  CHECK(first.title.find('\a') != std::string::npos);
-  CHECK(again.walls[0].offset == first.walls[0].offset);
-  CHECK(again.friction == 3.0);
 }
 
 TEST_CASE("overrides reach every value, and are read as TOML or as a bare word") {
@@ -141,15 +114,8 @@ TEST_CASE("an override that is wrong is refused and blamed") {
       {"body=2", "expected a list of tables"},
   };
   for (const auto& [override, part] : wrongs) {
-    std::string message;
-    try {
-      read_scene(folder.write("scene.toml", text), std::vector<std::string>{override});
-    } catch (const SceneFileError& error) {
-      message = error.what();
-    }
-    CHECK_THAT(message, Catch::StartsWith((folder.path() / "scene.toml").string() + " (--set)"));
-    CHECK_THAT(message, Catch::Contains(part));
-    CHECK(message.find('\n') == std::string::npos);
+    CHECK_THAT(error_of(folder, text, {override}),
+               Catch::Contains("scene.toml (--set)") && Catch::Contains(part));
   }
 }
 

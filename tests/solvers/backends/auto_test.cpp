@@ -3,8 +3,8 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/made_problems.hpp"
 #include "solvers/backends/backends.hpp"
-#include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -20,11 +20,6 @@ FrictionProblem heavy_pile(std::uint64_t seed, bool is_stored) {
                     .seed = seed});
 }
 
-SolverRun solved(std::unique_ptr<Solver> solver, const FrictionProblem& problem,
-                 const Budget& budget) {
-  return SolverRunner().run(*solver, problem, {}, budget);
-}
-
 }  // namespace
 
 TEST_CASE("where sweeps arrive, auto is sweeps with momentum, bit for bit", "[factors]") {
@@ -32,8 +27,9 @@ TEST_CASE("where sweeps arrive, auto is sweeps with momentum, bit for bit", "[fa
     const FrictionProblem problem =
         make_pile({.contacts = 300, .redundancy = 0.2, .is_stored = is_stored, .seed = 4});
     const Budget budget{.tolerance = 1e-5, .max_iterations = 10000};
-    const SolverRun by_sweeps = solved(make_nesterov_pgs(/*returns_best=*/false), problem, budget);
-    const SolverRun run = solved(make_auto(), problem, budget);
+    const SolverRun by_sweeps =
+        judged_by(make_nesterov_pgs(/*returns_best=*/false), problem, budget);
+    const SolverRun run = judged_by(make_auto(), problem, budget);
     REQUIRE(by_sweeps.is_solved());
     CHECK(run.is_solved());
     CHECK(run.solved.iterations == by_sweeps.solved.iterations);
@@ -48,10 +44,10 @@ TEST_CASE("where iterations are scarce, sweeps leave them to Newton while there 
   for (const bool is_stored : {false, true})
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const FrictionProblem problem = heavy_pile(seed, is_stored);
-      const SolverRun run = solved(make_auto(), problem, scarce);
+      const SolverRun run = judged_by(make_auto(), problem, scarce);
       CHECK(run.solved.iterations <= scarce.max_iterations);
       by_auto += run.is_solved();
-      by_sweeps += solved(make_nesterov_pgs(), problem, scarce).is_solved();
+      by_sweeps += judged_by(make_nesterov_pgs(), problem, scarce).is_solved();
     }
   CHECK(by_auto == 10);
   CHECK(by_sweeps < 5);
@@ -61,20 +57,20 @@ TEST_CASE("of thousands of iterations sweeps that crawl leave enough to Newton",
   const Budget thousands{.tolerance = 1e-7, .max_iterations = 10000};
   const FrictionProblem pile =
       make_pile({.contacts = 1500, .redundancy = 0.8, .mass_ratio = 1000.0, .seed = 3});
-  CHECK_FALSE(solved(make_nesterov_pgs(), pile, thousands).is_solved());
-  CHECK(solved(make_auto(), pile, thousands).is_solved());
+  CHECK_FALSE(judged_by(make_nesterov_pgs(), pile, thousands).is_solved());
+  CHECK(judged_by(make_auto(), pile, thousands).is_solved());
 }
 
 TEST_CASE("what Newton does not solve is solved by turns", "[factors]") {
   int lost = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const FrictionProblem problem = make_pile(random_pile(seed, 60));
-    const double tolerance =
-        1e-8 * contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
     CAPTURE(seed);
-    const Budget budget{.tolerance = tolerance, .max_iterations = 1 << 30, .max_seconds = 20.0};
-    CHECK(solved(make_auto(), problem, budget).is_solved());
-    lost += !solved(make_newton(ContactEquation::alart_curnier), problem, budget).is_solved();
+    const Budget budget{.tolerance = 1e-8 * velocity_scale(problem),
+                        .max_iterations = 1 << 30,
+                        .max_seconds = 20.0};
+    CHECK(judged_by(make_auto(), problem, budget).is_solved());
+    lost += !judged_by(make_newton(ContactEquation::alart_curnier), problem, budget).is_solved();
   }
   CHECK(lost > 0);
 }
@@ -82,16 +78,17 @@ TEST_CASE("what Newton does not solve is solved by turns", "[factors]") {
 TEST_CASE("work is counted, not clocked: the same bits every time", "[factors]") {
   const FrictionProblem problem = heavy_pile(7, true);
   const Budget budget{.tolerance = 1e-9, .max_iterations = 20000};
-  const SolverRun first = solved(make_auto(), problem, budget),
-                  second = solved(make_auto(), problem, budget);
+  const SolverRun first = judged_by(make_auto(), problem, budget),
+                  second = judged_by(make_auto(), problem, budget);
   CHECK(first.is_solved());
   CHECK(first.solved.iterations == second.solved.iterations);
   CHECK(first.solved.impulses == second.solved.impulses);
 }
 
 TEST_CASE("what nothing can reach ends as stalled", "[factors]") {
-  const SolverRun run = solved(make_auto(), heavy_pile(2, true),
-                               {.tolerance = 0.0, .max_iterations = 1 << 30, .max_seconds = 60.0});
+  const SolverRun run =
+      judged_by(make_auto(), heavy_pile(2, true),
+                {.tolerance = 0.0, .max_iterations = 1 << 30, .max_seconds = 60.0});
   CHECK(run.solved.reason == StopReason::stalled);
   CHECK(run.error.natural_map_rms < 1e-10);
 }

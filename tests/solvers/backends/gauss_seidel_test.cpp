@@ -7,10 +7,10 @@
 #include "problems/algebra/made_problems.hpp"
 #include "solvers/backends/backends.hpp"
 #include "solvers/gauss_seidel/any_sweep.hpp"
-#include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
 #include "tests/support/slow_sweep.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -27,10 +27,7 @@ TEST_CASE("a warm start keeps the storage of the start") {
 TEST_CASE("a NaN that slipped past validation is a numerical failure, not an answer") {
   KnownSolution known = make_known_solution({});
   known.problem.dynamics.v_free[0] = std::nan("");
-  const auto solver = make_gauss_seidel();
-  solver->prepare(known.problem);
-  const Solved solved = solver->solve(known.problem, Impulses::Zero(known.problem.row_count()), {});
-  CHECK(solved.reason == StopReason::numerical_failure);
+  CHECK(from_rest(*make_gauss_seidel(), known.problem, {}).reason == StopReason::numerical_failure);
 }
 
 namespace {
@@ -41,10 +38,9 @@ FrictionProblem slender_pile(int contacts) {
 
 /// So many iterations of the backend, from no impulses: the last iterate, better or not.
 Impulses after(const FrictionProblem& problem, int iterations) {
-  const auto solver = make_nesterov_pgs(/*returns_best=*/false);
-  solver->prepare(problem);
-  const Budget budget{.tolerance = 0.0, .max_iterations = iterations};
-  return solver->solve(problem, Impulses::Zero(problem.row_count()), budget).impulses;
+  return from_rest(*make_nesterov_pgs(/*returns_best=*/false), problem,
+                   {.tolerance = 0.0, .max_iterations = iterations})
+      .impulses;
 }
 
 /// The same by the book: whole iterates and all squares kept, each sweep from x + beta (x - x
@@ -101,9 +97,7 @@ TEST_CASE("nesterov_pgs: its iterates are those of the formula, over bodies and 
 TEST_CASE("nesterov_pgs: a chain of bodies takes less than half of the sweeps without momentum") {
   const FrictionProblem problem = slender_pile(1500);
   const auto iterations = [&](Solver& solver) {
-    solver.prepare(problem);
-    const Solved solved =
-        solver.solve(problem, Impulses::Zero(problem.row_count()), {.tolerance = 1e-6});
+    const Solved solved = from_rest(solver, problem, {.tolerance = 1e-6});
     CHECK(solved.reason == StopReason::reached_tolerance);
     CHECK(contact_error(problem, solved.impulses).natural_map_rms <= 1e-6);
     return solved.iterations;
@@ -114,11 +108,8 @@ TEST_CASE("nesterov_pgs: a chain of bodies takes less than half of the sweeps wi
 TEST_CASE("nesterov_pgs: where momentum goes round without end, plain sweeps come through") {
   // Without rests 20,000 sweeps were not enough; plain ones need 12,900.
   const FrictionProblem problem = make_pile(random_pile(59, 300));
-  const auto solver = make_nesterov_pgs();
-  solver->prepare(problem);
-  const double scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
-  const Budget budget{.tolerance = 1e-5 * scale, .max_iterations = 20000};
-  const Solved solved = solver->solve(problem, Impulses::Zero(problem.row_count()), budget);
+  const Budget budget{.tolerance = 1e-5 * velocity_scale(problem), .max_iterations = 20000};
+  const Solved solved = from_rest(*make_nesterov_pgs(), problem, budget);
   CHECK(solved.reason == StopReason::reached_tolerance);
   CHECK(contact_error(problem, solved.impulses).natural_map_rms <= budget.tolerance);
 }
@@ -127,11 +118,9 @@ TEST_CASE(
     "nesterov_pgs: where the last iterate is a worse one, the best that was seen comes back") {
   const FrictionProblem pile = make_pile(random_pile(59, 300)), stored = only_delassus(pile);
   for (const FrictionProblem* problem : {&pile, &stored}) {
-    const auto solver = make_nesterov_pgs();
-    solver->prepare(*problem);
     for (int iterations = 20; iterations < 400; iterations += 7) {
       const Budget budget{.tolerance = 0.0, .max_iterations = iterations, .keep_history = true};
-      const Solved solved = solver->solve(*problem, Impulses::Zero(problem->row_count()), budget);
+      const Solved solved = from_rest(*make_nesterov_pgs(), *problem, budget);
       double least = solved.history.front().error;
       for (const HistoryPoint& point : solved.history) least = std::min(least, point.error);
       CAPTURE(problem == &pile, iterations);

@@ -1,8 +1,8 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/backends.hpp"
-#include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -15,7 +15,7 @@ TEST_CASE("the interior point solves in few factorisations, in both forms", "[fa
               .problem;
       for (const FrictionProblem& problem : {dynamics, only_delassus(dynamics)}) {
         const Budget budget{.tolerance = 1e-9, .keep_history = true};
-        const SolverRun run = SolverRunner().run(*make_interior_point(), problem, {}, budget);
+        const SolverRun run = judged_by(make_interior_point(), problem, budget);
         CAPTURE(friction, seed, name_of(run.solved.reason), run.error.natural_map_rms);
         CHECK(run.is_solved());
         CHECK(run.solved.iterations < (friction > 0.0 ? 150 : 40));

@@ -3,9 +3,9 @@
 #include "platform/worker_team.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/backends.hpp"
-#include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -17,11 +17,6 @@ FrictionProblem deficient(std::uint64_t seed) {
                               .mass_ratio = seed % 2 ? 1.0 : 100.0,
                               .seed = seed})
       .problem;
-}
-
-SolverRun solved_from(std::unique_ptr<Solver> solver, const FrictionProblem& problem,
-                      const Budget& budget, const Impulses& start = {}) {
-  return SolverRunner().run(*solver, problem, start, budget);
 }
 
 }  // namespace
@@ -43,7 +38,7 @@ TEST_CASE("rank-deficient problems of unequal masses are solved, nearly all", "[
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       const Budget budget{
           .tolerance = method.tolerance, .max_iterations = method.iterations, .max_seconds = 20.0};
-      const SolverRun run = solved_from(method.make(), deficient(seed), budget);
+      const SolverRun run = judged_by(method.make(), deficient(seed), budget);
       CAPTURE(method.name, seed, run.solved.iterations, run.error.natural_map_rms);
       CHECK(run.error.natural_map_rms < method.farthest);
       CHECK(run.is_solved() == (run.solved.reason == StopReason::reached_tolerance));
@@ -58,8 +53,8 @@ TEST_CASE("near a solution Newton's steps are quadratic, at it there are none", 
   const KnownSolution known = make_known_solution({.bodies = 40, .contacts = 30});
   const Budget budget{.tolerance = 1e-7};
   for (const double away : {0.0, 0.001}) {
-    const SolverRun run = solved_from(make_newton(ContactEquation::alart_curnier), known.problem,
-                                      budget, (1.0 + away) * known.r);
+    const SolverRun run = judged_by(make_newton(ContactEquation::alart_curnier), known.problem,
+                                    budget, (1.0 + away) * known.r);
     CHECK(run.is_solved());
     CHECK(run.solved.iterations <= (away > 0.0 ? 2 : 0));
   }
@@ -72,11 +67,11 @@ TEST_CASE("the proximal Newton sweeps a warm start as well, and never loses it",
     const ProximalNewtonSettings settings{.start_sweeps = 2000, .accelerated = accelerated};
     // Sweeps are enough, and they are not counted.
     const SolverRun run =
-        solved_from(make_proximal_newton(settings), known.problem, budget, 0.5 * known.r);
+        judged_by(make_proximal_newton(settings), known.problem, budget, 0.5 * known.r);
     CHECK(run.is_solved());
     CHECK(run.solved.iterations == 0);
     const SolverRun there =
-        solved_from(make_proximal_newton(settings), known.problem, budget, known.r);
+        judged_by(make_proximal_newton(settings), known.problem, budget, known.r);
     CHECK(there.is_solved());
     CHECK(there.solved.impulses == known.r);
   }
@@ -85,8 +80,8 @@ TEST_CASE("the proximal Newton sweeps a warm start as well, and never loses it",
 TEST_CASE("where sweeps are enough newton_burst is nesterov_pgs, bit for bit", "[factors]") {
   const FrictionProblem problem = make_known_solution({.bodies = 60, .contacts = 90}).problem;
   const Budget budget{.tolerance = 1e-3, .max_iterations = 5000};
-  const SolverRun by_sweeps = solved_from(make_nesterov_pgs(), problem, budget);
-  const SolverRun run = solved_from(make_newton_burst(), problem, budget);
+  const SolverRun by_sweeps = judged_by(make_nesterov_pgs(), problem, budget);
+  const SolverRun run = judged_by(make_newton_burst(), problem, budget);
   REQUIRE(by_sweeps.is_solved());
   CHECK(run.is_solved());
   CHECK(run.solved.iterations == by_sweeps.solved.iterations);
@@ -101,7 +96,7 @@ TEST_CASE("newton_burst has the same bits on any number of threads", "[factors]"
     WorkerTeam team;
     team.resize(threads);
     solver->use_team(&team);
-    const SolverRun run = solved_from(std::move(solver), deficient(3), budget);
+    const SolverRun run = judged_by(std::move(solver), deficient(3), budget);
     CHECK(run.is_solved());
     if (threads == 1) alone = run.solved.impulses;
     CHECK(run.solved.impulses == alone);
@@ -110,7 +105,7 @@ TEST_CASE("newton_burst has the same bits on any number of threads", "[factors]"
 
 TEST_CASE("what newton_burst can never reach ends as stalled", "[factors]") {
   const SolverRun run =
-      solved_from(make_newton_burst(), deficient(2), {.tolerance = 0.0, .max_iterations = 1000000});
+      judged_by(make_newton_burst(), deficient(2), {.tolerance = 0.0, .max_iterations = 1000000});
   CHECK(run.solved.reason == StopReason::stalled);
   CHECK(run.error.natural_map_rms < 1e-12);
 }

@@ -2,9 +2,10 @@
 
 #include "platform/random.hpp"
 #include "solvers/parts/one_contact.hpp"
-#include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -18,18 +19,13 @@ TEST_CASE("nlopt and the exact solution of one contact agree") {
     for (double& entry_of_root : root.reshaped()) entry_of_root = random.uniform(-1, 1);
     const Eigen::Matrix3d w = root * root.transpose() + 0.2 * Eigen::Matrix3d::Identity();
     const Eigen::Vector3d q(random.uniform(-1, 0.3), random.uniform(-1, 1), random.uniform(-1, 1));
-    FrictionProblem problem;
-    problem.row_begin = {0, 3};
-    problem.friction = {random.uniform(0.0, 0.6)};  // little enough for one solution
-    problem.has_delassus = true;
-    problem.delassus.w = w.sparseView();
-    problem.delassus.q = q;
-    CAPTURE(trial, problem.friction[0]);
+    const double mu = random.uniform(0.0, 0.6);  // little enough for one solution
+    CAPTURE(trial, mu);
 
     Eigen::Vector3d exact;
     double lambda = 0.0;
-    solve_one_contact(w, q, problem.friction[0], exact, lambda);
-    const SolverRun run = SolverRunner().run(*entry.make(), problem, {}, {.tolerance = 1e-9});
+    solve_one_contact(w, q, mu, exact, lambda);
+    const SolverRun run = judged_by(entry.make(), stored_problem({mu}, w, q), {.tolerance = 1e-9});
     if (!run.is_solved()) continue;  // its right to stall; never to be wrong
     ++solved;
     pushed += exact[0] > 0.0;

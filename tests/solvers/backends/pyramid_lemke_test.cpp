@@ -5,8 +5,9 @@
 #include "platform/random.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/backends.hpp"
-#include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/delassus_form.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -14,14 +15,8 @@ namespace {
 
 /// A block on the ground that slides at 1 m/s into the direction `angle`: W = 1 / m, q_N = -g h.
 FrictionProblem sliding_block(double angle) {
-  FrictionProblem problem;
-  problem.row_begin = {0, 3};
-  problem.friction = {0.4};
-  problem.has_delassus = true;
-  problem.delassus.w.resize(3, 3);
-  problem.delassus.w.setIdentity();
-  problem.delassus.q = Eigen::Vector3d(-0.1, std::cos(angle), std::sin(angle));
-  return problem;
+  return stored_problem({0.4}, Eigen::Matrix3d::Identity(),
+                        Eigen::Vector3d(-0.1, std::cos(angle), std::sin(angle)));
 }
 
 LemkeState run(Lemke& lemke, const Eigen::MatrixXd& m, const Eigen::VectorXd& q, int& pivots) {
@@ -45,7 +40,7 @@ TEST_CASE("pyramid: along one of its directions it is Coulomb's law, between the
   constexpr double half = M_PI / 8.0;
   for (const double turn : {0.0, 0.5}) {  // 0: along a direction, 1/2: half-way to the next
     const SolverRun run =
-        SolverRunner().run(*make_pyramid_lemke(), sliding_block(turn * 2.0 * half), {}, Budget{});
+        judged_by(make_pyramid_lemke(), sliding_block(turn * 2.0 * half), Budget{});
     CAPTURE(turn, run.error.natural_map_rms);
     CHECK(run.solved.own_residual < 1e-12);
     CHECK(run.is_solved() == (turn == 0.0));
@@ -59,7 +54,7 @@ TEST_CASE("pyramid: along one of its directions it is Coulomb's law, between the
 TEST_CASE("pyramid: its own law is solved on rank-deficient problems") {
   const FrictionProblem deficient =
       make_known_solution({.bodies = 8, .contacts = 30, .friction_min = 0.3}).problem;
-  const SolverRun run = SolverRunner().run(*make_pyramid_lemke(), deficient, {}, Budget{});
+  const SolverRun run = judged_by(make_pyramid_lemke(), deficient, Budget{});
   CHECK(run.solved.own_residual < 1e-9);
   CHECK(run.solved.reason == StopReason::stalled);
 }

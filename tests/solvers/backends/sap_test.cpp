@@ -1,8 +1,8 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/backends.hpp"
-#include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -19,8 +19,7 @@ TEST_CASE(
     "claimed",
     "[factors]") {
   const FrictionProblem problem = rank_deficient();
-  const SolverRun run =
-      SolverRunner().run(*make_sap(), problem, {}, {.tolerance = 1e-8, .max_iterations = 2000});
+  const SolverRun run = judged_by(make_sap(), problem, {.tolerance = 1e-8, .max_iterations = 2000});
   CHECK(run.solved.reason == StopReason::stalled);
   CHECK(run.solved.own_residual <= 1e-8);
   CHECK(run.error.natural_map_rms > 1e-3);
@@ -30,8 +29,8 @@ TEST_CASE("sap finds the same velocities where only W is known", "[factors]") {
   const FrictionProblem problem = rank_deficient();
   const FrictionProblem stored = only_delassus(problem);
   const Budget budget{.tolerance = 1e-8, .max_iterations = 2000};
-  const SolverRun bodies = SolverRunner().run(*make_sap(), problem, {}, budget);
-  const SolverRun matrix = SolverRunner().run(*make_sap(), stored, {}, budget);
+  const SolverRun bodies = judged_by(make_sap(), problem, budget);
+  const SolverRun matrix = judged_by(make_sap(), stored, budget);
   CHECK(matrix.solved.own_residual <= 1e-8);
   Eigen::VectorXd of_bodies, of_matrix;
   contact_velocity(problem, bodies.solved.impulses, of_bodies);

@@ -7,8 +7,8 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/made_problems.hpp"
 #include "solvers/backends/backends.hpp"
-#include "solvers/seam/run_solver.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -22,7 +22,7 @@ SolverRun solved_to(const FrictionProblem& problem, SiconosMethod method, double
   FclibStop stop(problem, tolerance);
   Budget budget{.tolerance = 0.0, .max_seconds = 30.0};
   budget.fclib = &stop;
-  return SolverRunner().run(*make_siconos(method), problem, {}, budget);
+  return judged_by(make_siconos(method), problem, budget);
 }
 
 }  // namespace
@@ -77,5 +77,5 @@ TEST_CASE("Siconos' Newton goes on with a sparse W where it circles with a dense
   FclibStop stop(problem, 1e-4);
   Budget budget{.tolerance = 0.0, .max_iterations = 4000};
   budget.fclib = &stop;
-  CHECK(SolverRunner().run(*make_siconos(SiconosMethod::nsn_ac), problem, {}, budget).is_solved());
+  CHECK(judged_by(make_siconos(SiconosMethod::nsn_ac), problem, budget).is_solved());
 }

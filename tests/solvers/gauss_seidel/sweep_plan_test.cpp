@@ -12,6 +12,7 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/backends.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -174,9 +175,7 @@ TEST_CASE("the same bits whatever the number of threads") {
       WorkerTeam team;
       team.resize(threads);
       solver->use_team(&team);
-      solver->prepare(problem);
-      const Solved solved = solver->solve(problem, Impulses::Zero(problem.row_count()),
-                                          {.tolerance = 0.0, .max_iterations = 40});
+      const Solved solved = from_rest(*solver, problem, {.tolerance = 0.0, .max_iterations = 40});
       if (threads == 1) first = solved.impulses;
       CAPTURE(accelerated, threads);
       CHECK(solved.impulses == first);

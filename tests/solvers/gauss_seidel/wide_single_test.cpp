@@ -8,6 +8,7 @@
 #include "solvers/backends/backends.hpp"
 #include "tests/catch.hpp"
 #include "tests/solvers/gauss_seidel/grain_problem.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 using samples::grain_problem;
@@ -49,11 +50,6 @@ void check_far_guesses(const Loops& loops, double accuracy) {
       REQUIRE(miss < accuracy);
     }
   }
-}
-
-/// rms over rows of q [m/s]: what errors are small against.
-double velocity_scale(const FrictionProblem& problem) {
-  return contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
 }
 
 /// A row of bodies, the first of which runs at 1 m/s into the second, which rests against the third
@@ -214,11 +210,9 @@ TEST_CASE("single: backends that use it converge far below its rounding") {
   const FrictionProblem problem = grain_problem({.grains = 300, .contacts = 800, .seed = 7});
   const double tolerance = 1e-10 * velocity_scale(problem);
   for (const bool nncg : {false, true}) {
-    const std::unique_ptr<Solver> solver = nncg ? make_nncg() : make_gauss_seidel();
-    solver->prepare(problem);
     const Solved solved =
-        solver->solve(problem, Impulses::Zero(problem.row_count()),
-                      {.tolerance = tolerance, .max_iterations = 100000, .max_seconds = 1e30});
+        from_rest(*(nncg ? make_nncg() : make_gauss_seidel()), problem,
+                  {.tolerance = tolerance, .max_iterations = 100000, .max_seconds = 1e30});
     CHECK(solved.reason == StopReason::reached_tolerance);
     CHECK(contact_error(problem, solved.impulses).natural_map_rms <= tolerance);
   }
@@ -229,11 +223,9 @@ TEST_CASE("nncg stops soon after its tolerance is reached, after few looks at th
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const FrictionProblem problem =
         grain_problem({.grains = 600, .contacts = 2400, .reach = 20, .seed = seed});
-    const auto solver = make_nncg();
-    solver->prepare(problem);
     const auto solve = [&](double tolerance, int most) {
-      return solver->solve(problem, Impulses::Zero(problem.row_count()),
-                           {.tolerance = tolerance, .max_iterations = most, .keep_history = true});
+      return from_rest(*make_nncg(), problem,
+                       {.tolerance = tolerance, .max_iterations = most, .keep_history = true});
     };
     for (const double relative : {3e-3, 1e-3, 3e-4, 1e-4}) {
       const double tolerance = relative * velocity_scale(problem);

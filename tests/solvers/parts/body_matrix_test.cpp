@@ -91,19 +91,11 @@ TEST_CASE("where a pivot vanishes rows are exchanged, and a singular matrix is r
   // Two bodies of one unknown and mass 2: one contact joins them, one holds the second; H = 1.
   FrictionProblem problem;
   problem.has_dynamics = true;
-  DynamicsForm& d = problem.dynamics;
-  for (int b = 0; b < 2; ++b) {
-    d.mass.push_back(2.0);
-    d.dof_begin.push_back(b + 1);
-    d.mass_begin.push_back(b + 1);
-    d.body_a.push_back(b);
-    d.body_b.push_back(b == 0 ? 1 : -1);
-    problem.row_begin.push_back(b + 1);
-    problem.friction.push_back(0.0);
-  }
-  d.h = {1.0, 1.0, 1.0};
-  d.h_begin = {0, 2, 3};
-  d.v_free = d.bias = Eigen::VectorXd::Zero(2);
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+  for (int b = 0; b < 2; ++b) problem.dynamics.add_body(2.0 * one);
+  problem.add_contact(0, 1, 0.0, one, one);
+  problem.add_contact(1, -1, 0.0, one, {});
+  problem.dynamics.v_free = problem.dynamics.bias = Eigen::VectorXd::Zero(2);
   BodyMatrix matrix;
   matrix.prepare(problem);
   const Eigen::Vector2d b(1.0, 3.0);

@@ -113,12 +113,10 @@ TEST_CASE("pgs under the rule stops where dense sweeps do that are looked at as 
   // The twin: dense sweeps, and the dense norms after every seventh.
   const Eigen::MatrixXd w = oracle::dense_delassus(problem);
   const Eigen::VectorXd q = oracle::dense_q(problem);
-  std::vector<int> order(problem.contact_count());
-  std::iota(order.begin(), order.end(), 0);
   Impulses slow = Impulses::Zero(problem.row_count());
   int sweeps = 0;
   do
-    for (int k = 0; k < every; ++k, ++sweeps) slow_sweep(problem, w, q, order, slow);
+    for (int k = 0; k < every; ++k, ++sweeps) slow_sweep(problem, w, q, in_order(problem), slow);
   while (!slow_norms(problem, slow).within(tolerance));
   CHECK(sweeps > 2 * every);
 

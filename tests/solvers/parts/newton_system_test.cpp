@@ -83,9 +83,8 @@ TEST_CASE("a Newton system is solved in both forms, for one set of blocks after 
 
 TEST_CASE("Newton's system of a stored W: few rows, nearly full, sparse, one row, unsymmetric",
           "[factors]") {
-  KnownSolutionSettings settings;
-  settings.frictionless_fraction = 0.4;
-  FrictionProblem unsymmetric = only_delassus(make_known_solution(settings).problem);
+  FrictionProblem unsymmetric =
+      only_delassus(make_known_solution({.frictionless_fraction = 0.4}).problem);
   for (int i = 0; i < unsymmetric.delassus.w.nonZeros(); i += 3)
     unsymmetric.delassus.w.valuePtr()[i] *= 1.05;
   // Dense: few rows; dense: W is nearly full; sparse.

@@ -10,10 +10,7 @@ using namespace ballast;
 namespace {
 
 FrictionProblem some_problem(std::uint64_t seed) {
-  KnownSolutionSettings settings;
-  settings.seed = seed;
-  settings.mass_ratio = 100.0;
-  return make_known_solution(settings).problem;
+  return make_known_solution({.mass_ratio = 100.0, .seed = seed}).problem;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/backends/backends.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/solved.hpp"
 
 using namespace ballast;
 
@@ -229,9 +230,8 @@ TEST_CASE("a course that is asked for Siconos' measure ends with the iterate tha
 TEST_CASE("two parts of plain Gauss-Seidel end where one of both lengths does") {
   const FrictionProblem problem = make_known_solution({.bodies = 10, .contacts = 8}).problem;
   const auto solver = make_gauss_seidel();
-  solver->prepare(problem);
   const Budget budget{.tolerance = 0.0, .max_iterations = 30};
-  const Solved whole = solver->solve(problem, Impulses::Zero(problem.row_count()), budget);
+  const Solved whole = from_rest(*solver, problem, budget);
   Course course(budget, Impulses::Zero(problem.row_count()));
   course.run(*solver, problem, 10);
   CHECK(course.count() == 10);
