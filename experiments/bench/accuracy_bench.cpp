@@ -52,7 +52,7 @@ void add_marked_line(const std::vector<std::pair<double, double>>& points, Curve
     curve.y.push_back(y);
   }
   panel.curves.push_back(curve);
-  curve.title.clear();
+  curve.title = {};
   curve.mark = Mark::points;
   panel.curves.push_back(std::move(curve));
 }

@@ -5,7 +5,6 @@
 #include <iostream>
 #include <memory>
 #include <set>
-#include <thread>
 
 #include "experiments/box/packing.hpp"
 #include "experiments/commands/command.hpp"
@@ -278,7 +277,7 @@ Command plan_command() {
   const auto options = std::make_shared<PlanRequest>();
   PlanOptions& running = options->running;
   running.results.clear();
-  running.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  running.jobs = available_cores();
   return {"plan",
           "Many runs, several at a time, each only once",
           {{"plan", &options->plan, "A plan's file (docs/manual/plans.md)", required},
@@ -303,7 +302,7 @@ Command paper_command() {
   PlanOptions& running = options->running;
   CampaignSettings& campaign = options->campaign;
   running.results = "results/paper";
-  running.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  running.jobs = available_cores();
   return {"paper",
           "Reproduces the paper: runs, figures 3 to 13, one report",
           {{"target", &options->target,

@@ -114,7 +114,7 @@ using LiveLine =
 
 /// One figure with a line for every trajectory.
 struct LiveFigure {
-  const char *name, *title, *y_label;
+  const char *name, *title, *y_label;  ///< the label in the notation of marked()
   bool log_y;
   bool needs_wall, needs_reference;
   LiveLine line;
@@ -155,11 +155,11 @@ void line_of_distance(const Trajectory& t, const Trajectory& reference, Values& 
 std::vector<LiveFigure> figures_of(const LiveComparison& comparison) {
   using R = StepRecord;
   return {
-      {"live_wall", "Wall trajectory", "wall {/:Italic x}  (mm)", false, true, false,
+      {"live_wall", "Wall trajectory", "wall *x*  (mm)", false, true, false,
        column(&R::wall_x, 1e3)},
-      {"live_wall_deviation", "Deviation of the wall", "|{/:Italic x} − {/:Italic x}_{ref}|  (µm)",
-       true, true, true, line_of_deviation},
-      {"live_force", "Force on the wall", "{/:Italic f_g}  (N)", false, true, false,
+      {"live_wall_deviation", "Deviation of the wall", "|*x* − *x*~ref~|  (µm)", true, true, true,
+       line_of_deviation},
+      {"live_force", "Force on the wall", "*f*~g~  (N)", false, true, false,
        column(&R::wall_force, 1.0)},
       {"live_distance", "Distance from the reference", "rms distance  (µm)", true, false, true,
        line_of_distance},
@@ -256,7 +256,9 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
   for (const LiveFigure& what : figures_of(comparison)) {
     if (what.needs_reference && !reference) continue;
     if (what.needs_wall && !comparison.has_driven_wall) continue;
-    Panel panel{.x_label = "{/:Italic t}  (s)", .y_label = what.y_label, .log_y = what.log_y};
+    Panel panel{.x_label = page::marked("*t*  (s)"),
+                .y_label = page::marked(what.y_label),
+                .log_y = what.log_y};
     for (const Trajectory& t : comparison.trajectories) {
       Curve curve = trajectory_curve(comparison, t);
       if (!what.needs_reference || &t != reference)
@@ -298,7 +300,7 @@ Curve backend_curve(size_t k, const std::string& title) {
                           Ink::purple, Ink::sky,       Ink::black, Ink::grey};
   constexpr size_t count = std::size(inks);
   Curve curve;
-  curve.title = plain_text(title);
+  curve.title = title;
   curve.ink = inks[k % count];
   curve.dashed = (k / count) % 2 == 1;
   curve.width = k < 2 * count ? 1.8 : 0.9;

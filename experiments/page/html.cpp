@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 const char* variable_of(Ink ink) {
   // in the order of Ink
   constexpr const char* names[] = {"ink", "blue",   "vermilion", "green", "orange",
-                                   "sky", "purple", "yellow",    "grey",  "light"};
+                                   "sky", "purple", "grey",      "light"};
   return names[static_cast<size_t>(ink)];
 }
 
@@ -95,10 +95,9 @@ Json short_numbers(const std::vector<double>& values) {
   return list;
 }
 
-Json axis_json(const std::string& label, bool is_log, const std::optional<double>& low,
+Json axis_json(const Text& label, bool is_log, const std::optional<double>& low,
                const std::optional<double>& high) {
-  const Text words = label_words(label);
-  Json axis = {{"label", html_of(words)}, {"words", plain_words(words)}, {"log", is_log}};
+  Json axis = {{"label", html_of(label)}, {"words", plain_words(label)}, {"log", is_log}};
   if (low) axis["min"] = *low;
   if (high) axis["max"] = *high;
   return axis;
@@ -106,7 +105,7 @@ Json axis_json(const std::string& label, bool is_log, const std::optional<double
 
 Json curve_json(const Curve& curve) {
   const bool is_area = curve.mark == Mark::area;
-  return {{"title", plain_words(label_words(curve.title))},
+  return {{"title", plain_words(curve.title)},
           {"ink", variable_of(curve.ink)},
           {"dash", curve.dashed ? 1 + curve.fineness : 0},
           {"width", curve.width},
@@ -120,15 +119,14 @@ Json curve_json(const Curve& curve) {
           {"from", curve.origins}};
 }
 
-Json picture_json(const Figure& figure) {
+Json figure_json(const Figure& figure) {
   Json panels = Json::array();
   for (const Panel& panel : figure.panels) {
     Json curves = Json::array(), lines = Json::array();
     for (const Curve& curve : panel.curves) curves.push_back(curve_json(curve));
     for (const ReferenceLine& line : panel.lines)
-      lines.push_back({{"value", line.value},
-                       {"vertical", line.vertical},
-                       {"label", plain_words(label_words(line.label))}});
+      lines.push_back(
+          {{"value", line.value}, {"vertical", line.vertical}, {"label", plain_words(line.label)}});
     panels.push_back({{"x", axis_json(panel.x_label, panel.log_x, panel.x_min, panel.x_max)},
                       {"y", axis_json(panel.y_label, panel.log_y, panel.y_min, panel.y_max)},
                       {"curves", curves},
@@ -144,14 +142,14 @@ std::string for_script(std::string json) {
 }
 
 /// The page's own data, and the curves of its figures as "pictures".
-std::string data_of(const Page& page) {
+std::string page_data_json(const Page& page) {
   Json data = page.answers.data.empty() ? Json::object() : Json::parse(page.answers.data);
   if (page.answers.with_curves) {
     Json& pictures = data["pictures"] = Json::array();
     for (const Section& section : page.sections)
       for (const Block& block : section.blocks)
         if (const auto* picture = std::get_if<Picture>(&block))
-          pictures.push_back(picture_json(picture->plot));
+          pictures.push_back(figure_json(picture->plot));
   }
   return for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -320,8 +318,7 @@ std::string html_of(const Text& text) {
 }
 
 std::string html_of(const Block& block) {
-  const bool is_subheading = std::holds_alternative<Subheading>(block);
-  return is_empty(block) && !is_subheading ? std::string() : std::visit(HtmlBlocks{}, block);
+  return is_empty(block) ? std::string() : std::visit(HtmlBlocks{}, block);
 }
 
 std::string html_of(const Page& page) {
@@ -369,7 +366,7 @@ std::string answers_html(const Page& page) {
   for (const char* name : common_modules) whole += answers_file(name);
   for (const std::string& module : page.answers.modules) whole += module;
   return "<style>\n" + answers_file("answers.css") +
-         "</style>\n<script type=\"application/json\" id=\"page-data\">" + data_of(page) +
+         "</style>\n<script type=\"application/json\" id=\"page-data\">" + page_data_json(page) +
          "</script>\n<script>\n" + chart_library() + "</script>\n<script>\n" + whole +
          "})();\n</script>\n";
 }

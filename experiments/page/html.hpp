@@ -1,6 +1,6 @@
 #pragma once
-// Writes a page as one HTML file that opens offline: nothing is loaded from elsewhere, and only a
-// replay has a script.
+// Writes a page as one HTML file that opens offline: nothing is loaded from elsewhere. Scripts
+// stand only in a replay and at the end of a page that answers.
 
 #include <filesystem>
 #include <string>
@@ -15,7 +15,7 @@ std::string html_of(const Page& page);
 /// The same as a file, which is there whole or not at all. Throws Error.
 void write_html_file(const std::filesystem::path& file, const Page& page);
 
-/// One part of it. A replay has its data and the script that draws it, the page's only one.
+/// One part of it. A replay has its data and the script that draws it.
 std::string html_of(const Text& text);
 std::string html_of(const Block& block);
 

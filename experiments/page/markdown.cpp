@@ -146,8 +146,7 @@ std::string markdown_of(const Text& text) {
 }
 
 std::string markdown_of(const Block& block) {
-  const bool is_subheading = std::holds_alternative<Subheading>(block);
-  return is_empty(block) && !is_subheading ? std::string() : std::visit(MarkdownBlocks{}, block);
+  return is_empty(block) ? std::string() : std::visit(MarkdownBlocks{}, block);
 }
 
 std::string markdown_of(const Section& section) {

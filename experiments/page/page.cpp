@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 struct Emptiness {
   bool operator()(const Text& text) const { return text.empty(); }
-  bool operator()(const Subheading&) const { return true; }  // says nothing by itself
+  bool operator()(const Subheading& heading) const { return heading.words.empty(); }
   bool operator()(const List& list) const { return list.items.empty(); }
   bool operator()(const Table& table) const { return table.rows.empty(); }
   bool operator()(const Picture& picture) const { return picture.plot.panels.empty(); }
@@ -24,15 +24,14 @@ struct Emptiness {
 void draw(Picture& picture, const fs::path& folder, const Drawing& drawing) {
   const std::string& name = picture.plot.name;
   picture.svg = render_svg(picture.plot, folder);
-  if (drawing.on_white) {
-    // on its own the file has white behind it, whatever shows it
-    std::string svg = picture.svg;
-    svg.insert(svg.find('>', svg.find("<svg")) + 1,
-               "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
-    write_whole_file(folder / (name + ".svg"), svg);
-  }
+  if (!drawing.is_file_shown) return;
+  // on its own the file has white behind it, whatever shows it
+  std::string svg = picture.svg;
+  svg.insert(svg.find('>', svg.find("<svg")) + 1,
+             "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
+  write_whole_file(folder / (name + ".svg"), svg);
   std::error_code ignored;
-  if (!drawing.with_script) fs::remove(folder / (name + ".gnuplot"), ignored);
+  fs::remove(folder / (name + ".gnuplot"), ignored);
 }
 
 }  // namespace
@@ -43,7 +42,12 @@ void Section::add(const std::vector<Picture>& pictures) {
   blocks.insert(blocks.end(), pictures.begin(), pictures.end());
 }
 
-bool Section::is_empty() const { return std::all_of(blocks.begin(), blocks.end(), page::is_empty); }
+bool Section::is_empty() const {
+  // a heading says nothing by itself
+  return std::ranges::all_of(blocks, [](const Block& block) {
+    return std::holds_alternative<Subheading>(block) || page::is_empty(block);
+  });
+}
 
 Table words_table(const std::string& name, const Values& values) {
   const std::vector<Text> lines = parts_of(words(name, values), "\n");
@@ -58,7 +62,7 @@ void draw_pictures(Page& page, const fs::path& folder, const Drawing& drawing) {
   // draws one; false: it is to be dropped
   const auto is_drawn = [&](Picture& picture) {
     if (picture.plot.panels.empty()) return false;
-    if (!has_gnuplot) is_any_missing = true;
+    is_any_missing |= !has_gnuplot;
     if (!has_gnuplot) return false;
     try {
       draw(picture, folder / picture_folder, drawing);

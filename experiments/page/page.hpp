@@ -114,10 +114,9 @@ inline constexpr const char* picture_folder = "figures";
 
 /// What is left beside the page for each figure; the SVG always is.
 struct Drawing {
-  bool with_script = true;  ///< gnuplot's script, which holds the data
-  bool on_white = false;    ///< the SVG as a file has a white ground: for pages that show the file
-  std::string command =
-      {};  ///< named where gnuplot is missing: "ballast report RUN" draws them later
+  bool is_file_shown = false;  ///< by the page: the file has a white ground; gnuplot's script,
+                               ///< which holds the data, is left only where this is false
+  std::string command = {};    ///< that draws them later, named where gnuplot is missing
 };
 
 /// Draws every picture of `page` into folder/figures and fills its svg. Pictures without panels are

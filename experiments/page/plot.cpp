@@ -90,7 +90,8 @@ Extent y_extent(const Panel& panel) {
       extent.add(curve.y[k] + bar);
       if (!curve.y_low.empty()) extent.add(curve.y_low[k]);
     }
-  if (extent.is_empty()) throw std::invalid_argument("nothing to draw for " + panel.y_label);
+  if (extent.is_empty())
+    throw std::invalid_argument("nothing to draw for " + plain_words(panel.y_label));
   for (const ReferenceLine& line : panel.lines)
     if (!line.vertical) extent.add(line.value);
   extent.pad(0.06);
@@ -103,7 +104,8 @@ Extent x_extent(const Panel& panel) {
   Extent extent{panel.log_x};
   for (const Curve& curve : panel.curves)
     for (double x : curve.x) extent.add(x);
-  if (extent.is_empty()) throw std::invalid_argument("nothing to draw along " + panel.x_label);
+  if (extent.is_empty())
+    throw std::invalid_argument("nothing to draw along " + plain_words(panel.x_label));
   if (!panel.x_min || !panel.x_max) extent.pad(0.03);
   if (panel.x_min) extent.low = *panel.x_min;
   if (panel.x_max) extent.high = *panel.x_max;
@@ -123,7 +125,8 @@ KeySize key_size(const Figure& figure, const Panel& panel) {
   for (const Curve& curve : panel.curves) {
     if (curve.title.empty()) continue;
     ++entries;
-    const auto letters = std::count_if(curve.title.begin(), curve.title.end(),
+    const std::string title = plain_words(curve.title);
+    const auto letters = std::count_if(title.begin(), title.end(),
                                        [](unsigned char c) { return (c & 0xc0) != 0x80; });
     widest = std::max(widest, sample + letter * static_cast<double>(letters));
   }
@@ -173,14 +176,24 @@ std::vector<PanelPlace> panel_places(const Figure& figure) {
   return places;
 }
 
-/// In single quotes gnuplot expands nothing (double quotes would run what is between backquotes).
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : one_line(text, ' ')) {
-    if (c == '\'') result += '\'';
-    result += c;
+/// As gnuplot's enhanced text, {/:Italic f}_{max}. In single quotes gnuplot expands nothing (double
+/// quotes would run what is between backquotes).
+std::string quoted(const page::Text& text) {
+  std::string label;
+  for (const page::Span& span : text.spans) {
+    std::string words;
+    for (const char c : one_line(span.text, ' ')) {
+      if (c == '\'') words += c;
+      if (std::string_view("^_@&~{}\\").find(c) != std::string_view::npos) words += '\\';
+      words += c;
+    }
+    if (span.styles & page::symbol) words = "{/:Italic " + words + '}';
+    if (span.styles & page::strong) words = "{/:Bold " + words + '}';
+    if (span.styles & page::subscript) words = "_{" + words + '}';
+    if (span.styles & page::superscript) words = "^{" + words + '}';
+    label += words;
   }
-  return result + '\'';
+  return '\'' + label + '\'';
 }
 
 std::string script_number(double value) {
@@ -301,19 +314,8 @@ std::string why(const ProgramResult& child, double seconds) {
 const char* rgb_of(Ink ink) {
   // in the order of Ink
   constexpr const char* colours[] = {"#1a1a1a", "#0072b2", "#d55e00", "#009e73", "#e69f00",
-                                     "#56b4e9", "#cc79a7", "#f0e442", "#767676", "#b8b8b8"};
+                                     "#56b4e9", "#cc79a7", "#767676", "#b8b8b8"};
   return colours[static_cast<size_t>(ink)];
-}
-
-std::string plain_text(const std::string& text) {
-  std::string result;
-  for (const char c : one_line(text, ' ')) {
-    if (c == '^' || c == '_' || c == '@' || c == '&' || c == '~' || c == '{' || c == '}' ||
-        c == '\\')
-      result += '\\';
-    result += c;
-  }
-  return result;
 }
 
 std::string gnuplot_script(const Figure& figure) {

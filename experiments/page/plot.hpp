@@ -1,9 +1,6 @@
 #pragma once
 // Plots by gnuplot: the one place that knows it. A figure is plain data; its script holds the data
 // too, so that `gnuplot figures/x.gnuplot > x.svg` makes the same picture again.
-//
-// Labels are gnuplot's enhanced text: x_{max} and {/:Italic f} work; text from outside goes through
-// plain_text().
 
 #include <filesystem>
 #include <optional>
@@ -11,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/page/text.hpp"
+
 namespace ballast {
 
 /// Okabe and Ito's colour-blind-safe colours, and two greys. The page maps them to lighter ones on
 /// a dark ground.
-enum class Ink { black, blue, vermilion, green, orange, sky, purple, yellow, grey, light };
+enum class Ink { black, blue, vermilion, green, orange, sky, purple, grey, light };
 const char* rgb_of(Ink ink);  ///< "#rrggbb"
 
 enum class Mark {
@@ -28,7 +27,7 @@ enum class MarkShape { circle, triangle, square, diamond };
 
 struct Curve {
   std::vector<double> x = {}, y = {};
-  std::string title = {};  ///< empty: not in the key
+  page::Text title = {};  ///< empty: not in the key
   Ink ink = Ink::blue;
   Mark mark = Mark::line;
   MarkShape shape = MarkShape::circle;
@@ -45,13 +44,13 @@ struct Curve {
 /// A dashed line across the panel with a label at its end: a target, a reference.
 struct ReferenceLine {
   double value = 0.0;
-  std::string label = {};
+  page::Text label = {};
   bool vertical = false;
   Ink ink = Ink::grey;
 };
 
 struct Panel {
-  std::string x_label = {}, y_label = {};
+  page::Text x_label = {}, y_label = {};
   bool log_x = false, log_y = false;
   std::optional<double> y_min = {}, y_max = {}, x_min = {}, x_max = {};
   std::vector<Curve> curves = {};
@@ -67,9 +66,6 @@ struct Figure {
                                    ///< x label if all share it
   bool has_letters = false;        ///< (a), (b) ... above the panels: for print
 };
-
-/// Escapes what enhanced text would interpret; control characters become spaces.
-std::string plain_text(const std::string& text);
 
 /// The script, data included; output goes to standard output. Throws std::invalid_argument when a
 /// panel has nothing to show.

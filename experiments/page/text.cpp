@@ -9,7 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/page/plot.hpp"
 #include "platform/text.hpp"
 
 namespace ballast::page {
@@ -103,36 +102,6 @@ std::string first_letter(std::string_view text) {
   while (length < text.size() && (text[length] & 0xc0) == 0x80) ++length;
   return std::string(text.substr(0, length));
 }
-
-/// Reads a plot's label from left to right.
-struct LabelReader {
-  std::string_view text;
-  size_t at = 0;
-
-  Text until(char end) {
-    Text words;
-    while (at < text.size() && text[at] != end) words += next();
-    ++at;
-    return words;
-  }
-
-  Text next() {
-    const char c = text[at++];
-    if (c == '\\' && at < text.size()) return std::string(1, text[at++]);
-    if ((c == '_' || c == '^') && at < text.size())
-      return styled(next(), c == '_' ? subscript : superscript);
-    if (c == '{') {
-      const bool is_italic = text.substr(at).starts_with("/:Italic ");
-      if (is_italic) at = text.find(' ', at) + 1;
-      return styled(until('}'), is_italic ? symbol : 0);
-    }
-    // of two blanks a page would show one
-    if (c == ' ' && text.substr(at).starts_with(' ')) return "\u00a0";
-    const std::string letter = first_letter(text.substr(at - 1));
-    at += letter.size() - 1;
-    return letter;
-  }
-};
 
 /// "−4" as "⁻⁴"; empty when a character has no raised form.
 std::string raised(const std::string& text) {
@@ -249,21 +218,6 @@ std::string plain_words(const Text& text) {
   std::replace(words.begin(), words.end(), '\n', ' ');
   return words;
 }
-
-std::string plot_label(const Text& text) {
-  std::string label;
-  for (const Span& span : text.spans) {
-    std::string words = plain_text(span.text);
-    if (span.styles & symbol) words = "{/:Italic " + words + '}';
-    if (span.styles & strong) words = "{/:Bold " + words + '}';
-    if (span.styles & subscript) words = "_{" + words + '}';
-    if (span.styles & superscript) words = "^{" + words + '}';
-    label += words;
-  }
-  return label;
-}
-
-Text label_words(std::string_view label) { return LabelReader{label}.until('\0'); }
 
 std::string clean_utf8(std::string_view text) {
   using Json = nlohmann::json;

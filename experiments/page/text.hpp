@@ -1,6 +1,6 @@
 #pragma once
 // The words of a page: runs of text, each with the styles that every writer knows (HTML, Markdown,
-// plain text, gnuplot's labels).
+// plain text, labels of plots).
 //
 //   Text words = marked("Force *f*~g~ above 10^−3^ N. ((Grey: each step.))") + name_from_a_file;
 //
@@ -63,11 +63,6 @@ Text marked(std::string_view notation, const Values& values = {});
 
 /// Words alone: titles, file names, tests. Powers keep their height (10⁻⁴) where Unicode has it.
 std::string plain_words(const Text& text);
-
-/// As a label of a plot (gnuplot's enhanced text).
-std::string plot_label(const Text& text);
-/// The same backwards: gnuplot's enhanced text ("{/:Italic f}_{max}") as words.
-Text label_words(std::string_view label);
 
 /// The text with what is no UTF-8 and every control character except line breaks and tabs replaced
 /// by U+FFFD.

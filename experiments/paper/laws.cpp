@@ -95,7 +95,7 @@ std::pair<double, double> reach_of(const OneCurve& all) {
 
 /// A function of X [m], drawn over X in mm.
 template <class Function>
-Curve along(const OneCurve& all, const Function& function, const std::string& title, Ink ink,
+Curve along(const OneCurve& all, const Function& function, const page::Text& title, Ink ink,
             bool dashed = false) {
   const auto [least, most] = reach_of(all);
   Curve curve = curve_of(function, {least, most, true}, title, ink, dashed);
@@ -114,8 +114,8 @@ Curve band(const OneCurve& all, const Low& low, const High& high) {
 }
 
 Panel prefactor_panel(const OneCurve& all) {
-  Panel panel{.x_label = "right side of Eq. 3 without {/:Italic C},  {/:Italic X}  (mm)",
-              .y_label = "{/:Italic C} = Δ{/:Italic x}_{max} / {/:Italic X}",
+  Panel panel{.x_label = page::marked("right side of Eq. 3 without *C*,  *X*  (mm)"),
+              .y_label = page::marked("*C* = Δ*x*~max~ / *X*"),
               .log_x = true,
               .y_min = 0.0};
   const auto bound = [&](double x, double sign) {
@@ -133,8 +133,8 @@ Panel prefactor_panel(const OneCurve& all) {
     for (const CurvePoint& point : all.points)
       if (point.series == series) points.add(to_mm * point.x, point.group.mean(prefactor_of));
     if (!points.x.empty())
-      panel.curves.push_back(curve_of(points, all_series()[series].title, all_series()[series].ink,
-                                      all_series()[series].shape));
+      panel.curves.push_back(curve_of(points, page::marked(all_series()[series].title),
+                                      all_series()[series].ink, all_series()[series].shape));
   }
   panel.lines = {{paper::prefactor, "the paper’s 0.01", false, Ink::grey}};
   return panel;
@@ -214,16 +214,16 @@ struct Law {
 std::vector<Law> all_laws() {
   using enum MarkShape;
   const auto series = all_series();
-  const Axis rise{rise_of, "Δ{/:Italic x}_{max}  (mm)", 1e3},
-      prefactor{prefactor_of, "{/:Italic C} = Δ{/:Italic x}_{max} / {/:Italic X}", 1.0},
-      frequency{frequency_of, "{/:Italic ν}  (Hz)", 1.0},
-      speed{speed_of, "{/:Italic v}_{max}  (mm/s)", 1e3},
-      force{series[1].along, "{/:Italic f}_{max} / ({/:Italic m g})", 1.0},
-      gravity{series[2].along, "{/:Italic g}  (m/s^2)", 1.0},
-      mass{series[3].along, "{/:Italic m} / ({/:Italic m} + {/:Italic m}_w)", 1.0},
-      eq3{eq3_of, "right side of Eq. 3 without {/:Italic C}  (mm)", 1e3},
-      aspect{aspect_of, "{/:Italic L}/{/:Italic H}", 1.0},
-      theory{theory_of, "{/:Italic C} by the theory, from the force as measured", 1.0};
+  const Axis rise{rise_of, "Δ*x*~max~  (mm)", 1e3},
+      prefactor{prefactor_of, "*C* = Δ*x*~max~ / *X*", 1.0},
+      frequency{frequency_of, "*ν*  (Hz)", 1.0},
+      speed{speed_of, "*v*~max~  (mm/s)", 1e3},
+      force{series[1].along, "*f*~max~ / (*m g*)", 1.0},
+      gravity{series[2].along, "*g*  (m/s^2^)", 1.0},
+      mass{series[3].along, "*m* / (*m* + *m*~w~)", 1.0},
+      eq3{eq3_of, "right side of Eq. 3 without *C*  (mm)", 1e3},
+      aspect{aspect_of, "*L*/*H*", 1.0},
+      theory{theory_of, "*C* by the theory, from the force as measured", 1.0};
   const std::vector<Series> all(series.begin(), series.end());
   const Selection slow{"5 Hz", "box frequency=5"}, fast{"20 Hz", "box frequency=20"},
       pressed{"ν",
@@ -266,12 +266,11 @@ void draw_lines(const Law& law, const Points& all, const PowerFit& fit, Panel& p
   for (const double x : all.x) logs += std::log(x) / static_cast<double>(all.x.size());
   const double middle = std::exp(logs);
   panel.curves.push_back(curve_of([&](double x) { return fit.at(x); }, range,
-                                  "fit, exponent " + plot_label(page::number(fit.exponent)),
-                                  Ink::black));
+                                  "fit, exponent " + page::number(fit.exponent), Ink::black));
   if (std::isnan(law.reference))
-    panel.curves.push_back(curve_of(
-        [&](double x) { return fit.at(middle) * std::pow(x / middle, law.exponent); }, range,
-        "exponent " + plot_label(page::number(law.exponent, 1)), Ink::vermilion, false));
+    panel.curves.push_back(
+        curve_of([&](double x) { return fit.at(middle) * std::pow(x / middle, law.exponent); },
+                 range, "exponent " + page::number(law.exponent, 1), Ink::vermilion, false));
   else
     panel.curves.push_back(curve_of([&](double x) { return law.reference * x; }, range,
                                     law.is_of_paper() ? "the paper’s C = 0.01" : "the theory",
@@ -279,7 +278,10 @@ void draw_lines(const Law& law, const Points& all, const PowerFit& fit, Panel& p
 }
 
 void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& section) {
-  Panel panel{.x_label = law.x.label, .y_label = law.y.label, .log_x = true, .log_y = true};
+  Panel panel{.x_label = page::marked(law.x.label),
+              .y_label = page::marked(law.y.label),
+              .log_x = true,
+              .log_y = true};
   std::set<std::string> seen;  // equal runs of several stages and families are one point
   Points all;
   for (const Series& family : law.families) {
@@ -293,8 +295,7 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
         points_of(distinct, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
     if (points.x.empty()) continue;
     all.add(points);
-    panel.curves.push_back(
-        curve_of(points, plain_text(family.selection.name), family.ink, family.shape));
+    panel.curves.push_back(curve_of(points, family.selection.name, family.ink, family.shape));
     const PowerFit fit = fit_power(points.x, points.y);
     const Proportion ratio = fit_proportion(points.x, points.y);
     table.rows.push_back({page::words(law.name + std::string(".title")), family.selection.name,
@@ -333,9 +334,9 @@ std::span<const Series> all_series() {
   // rows of 23 November 2026 and before have g and m_w in one stage
   static const std::vector<Series> all{
       {{"ν", "frequency; slowest"}, Ink::blue, triangle, frequency_of, "ν"},
-      {{"f_max", "force"}, Ink::vermilion, circle, force_of, "f_{max}"},
+      {{"f_max", "force"}, Ink::vermilion, circle, force_of, "f~max~"},
       {{"g", "gravity; gravity-mass gravity!9.81"}, Ink::green, square, gravity, "g"},
-      {{"m_w", "mass; gravity-mass gravity=9.81"}, Ink::purple, diamond, mass, "m_w"}};
+      {{"m_w", "mass; gravity-mass gravity=9.81"}, Ink::purple, diamond, mass, "m~w~"}};
   return all;
 }
 

@@ -13,7 +13,7 @@ struct Series {
   Ink ink;
   MarkShape shape = MarkShape::circle;
   RunMeasure along = nullptr;   ///< what is varied
-  const char* title = nullptr;  ///< in the legend
+  const char* title = nullptr;  ///< in the legend, in the notation of page::marked()
 };
 /// What Eq. 3 has: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11.
 std::span<const Series> all_series();

@@ -112,10 +112,11 @@ void add_gain_line(const MotionRun& run, Panel& panel) {
   const double level = compaction.reference - compaction.initial, begin = paper_window.begin;
   if (!std::isfinite(compaction.gain)) return;
   panel.lines.push_back(
-      {level, "ρ_0 = " + plot_label(page::number(compaction.reference)), false, Ink::grey});
+      {level, page::marked("ρ~0~ = ") + page::number(compaction.reference), false, Ink::grey});
   panel.curves.push_back(curve_of(
       [&](double t) { return level + compaction.gain * run.summary.facts.frequency * (t - begin); },
-      {begin, run.data.steps.back().time, false}, "Δρ_1 a period, sample 1", Ink::black));
+      {begin, run.data.steps.back().time, false}, page::marked("Δρ~1~ a period, sample 1"),
+      Ink::black));
 }
 
 constexpr int orbit_phases = 200;  // of a period, at which orbits are compared
@@ -173,13 +174,14 @@ double distance(const Portrait& orbits) {
 }
 
 /// Both orbits in mm and mm/s. They are open: a period ends further in than it began.
+/// The labels are in the notation of page::marked().
 Panel portrait_panel(const Portrait& orbits, const std::string& x_label,
                      const std::string& v_label) {
-  Panel panel{.x_label = x_label, .y_label = v_label};
+  Panel panel{.x_label = page::marked(x_label), .y_label = page::marked(v_label)};
   for (size_t k = 0; k < 2; ++k) {
     Curve curve{.x = orbits[k].x,
                 .y = orbits[k].v,
-                .title = plot_label(page::number(portrait_frequencies[k], 2) + " Hz"),
+                .title = page::number(portrait_frequencies[k], 2) + " Hz",
                 .ink = k == 0 ? Ink::blue : Ink::vermilion,
                 .dashed = k == 1};
     for (double& x : curve.x) x *= 1e3;
@@ -204,7 +206,7 @@ constexpr RateWindow windows[] = {
 constexpr double paper_peak = 10.0;  // nu_c [Hz]
 
 /// Eq. 5 over the frequencies of a curve.
-Curve law_curve(const PeakedRate& law, const Points& points, const char* title, Ink ink) {
+Curve law_curve(const PeakedRate& law, const Points& points, const page::Text& title, Ink ink) {
   return curve_of([&](double nu) { return law.at(nu); }, {points.x.front(), points.x.back(), true},
                   title, ink);
 }
@@ -371,21 +373,18 @@ void fill_portraits(PaperData& data, PaperSection& section) {
                            {"fast", std::to_string(shown[1].periods)},
                            {"raw", words_of(sample_mean(raw))},
                            {"scaled", words_of(after)}};
-  section.draw(
-      "fig8",
-      {.height = 860,
-       .panels = {portrait_panel(shown, "{/:Italic x} − {/:Italic x}_{jam}  (mm)",
-                                 "{/:Italic v}  (mm/s)"),
-                  portrait_panel(collapsed(shown),
-                                 "({/:Italic x} − {/:Italic x}_{jam}) {/:Italic ν}^2  (mm/s^2)",
-                                 "{/:Italic v ν}  (mm/s^2)")}},
-      words);
+  section.draw("fig8",
+               {.height = 860,
+                .panels = {portrait_panel(shown, "*x* − *x*~jam~  (mm)", "*v*  (mm/s)"),
+                           portrait_panel(collapsed(shown), "(*x* − *x*~jam~) *ν*^2^  (mm/s^2^)",
+                                          "*v ν*  (mm/s^2^)")}},
+               words);
   section.claim("fig8.collapse", words, PaperRange::at_most(0.1), found(after));
 }
 
 void fill_rates(PaperData& data, PaperSection& section) {
   const Groups groups = data.groups({"", "frequency; slowest"}, frequency_of);
-  Panel panel = frequency_panel("compaction rate  {/:Italic η}  (1/s)");
+  Panel panel = frequency_panel("compaction rate  *η*  (1/s)");
   page::Values words;
   // D as the paper has it: the gain of a period at 5 Hz over rho_0
   const Group* slow = at(groups, 5.0);
@@ -411,7 +410,8 @@ void fill_rates(PaperData& data, PaperSection& section) {
     if (window.rate != rate_of) continue;
     if (std::isfinite(free.critical))
       panel.curves.push_back(law_curve(free, curve, "Eq. 5, both free", Ink::black));
-    panel.curves.push_back(law_curve(fixed, curve, "Eq. 5, D = Δρ_1/ρ_0", Ink::green));
+    panel.curves.push_back(
+        law_curve(fixed, curve, page::marked("Eq. 5, D = Δρ~1~/ρ~0~"), Ink::green));
     panel.curves.push_back(law_curve({.gain = paper::gain_per_period, .critical = paper_peak},
                                      curve, "the paper’s Eq. 5", Ink::grey));
   }

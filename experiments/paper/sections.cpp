@@ -292,16 +292,16 @@ page::Text words_of_change(const SampleMean& change) {
                         100.0 * std::expm1(change.mean + half));
 }
 
-Panel frequency_panel(const std::string& y_label) {
-  return {.x_label = "{/:Italic ν}  (Hz)",
-          .y_label = y_label,
+Panel frequency_panel(const std::string& label) {
+  return {.x_label = page::marked("*ν*  (Hz)"),
+          .y_label = page::marked(label),
           .log_x = true,
           .x_min = 0.85,
           .x_max = 70.0,
           .x_ticks = {1, 2, 5, 10, 20, 60}};
 }
 
-Curve curve_of(const Points& points, const std::string& title, Ink ink, MarkShape shape) {
+Curve curve_of(const Points& points, const page::Text& title, Ink ink, MarkShape shape) {
   Curve curve{.x = points.x,
               .y = points.y,
               .title = title,
@@ -325,9 +325,9 @@ std::string figure_csv(const Figure& figure) {
       const Curve& curve = panel.curves[c];
       for (size_t k = 0; k < curve.x.size(); ++k) {
         csv.add(static_cast<long>(p + 1));
-        csv.add(panel.y_label);
-        csv.add(curve.title.empty() ? std::to_string(c + 1) : curve.title);
-        csv.add(panel.x_label);
+        csv.add(plain_words(panel.y_label));
+        csv.add(curve.title.empty() ? std::to_string(c + 1) : plain_words(curve.title));
+        csv.add(plain_words(panel.x_label));
         for (const auto* values : {&curve.x, &curve.y, &curve.y_error, &curve.y_low})
           add_value(csv, *values, k);
         csv.end_row();
@@ -379,7 +379,7 @@ void write_paper_report(PaperData& data, const std::vector<PaperSection>& sectio
   page::Page page = paper_page(sections, origin_of(data));
   page.answers = {.are_given = true, .with_curves = true};
   // the data stand beside as CSV, and README.md shows the files themselves
-  page::draw_pictures(page, folder, {.with_script = false, .on_white = true});
+  page::draw_pictures(page, folder, {.is_file_shown = true});
   write_html_file(folder / "paper.html", page);
   page.lede.push_back(page::words("paper.made_by"));
   write_whole_file(folder / "README.md", markdown_of(page));

@@ -114,13 +114,14 @@ page::Text words_with_interval(const SampleMean& mean);
 /// Of a difference of logarithms: "+3.1 % [0.2, 6.1]"; one sample has no interval.
 page::Text words_of_change(const SampleMean& change);
 
-/// A panel over the paper's frequencies, 1 to 60 Hz: the same axis in every figure.
-Panel frequency_panel(const std::string& y_label);
+/// A panel over the paper's frequencies, 1 to 60 Hz: the same axis in every figure. The label is in
+/// the notation of page::marked().
+Panel frequency_panel(const std::string& label);
 
 /// What the legend says of points that are means over seeds.
 inline constexpr const char* mean_title = "mean over samples ± standard error";
 /// Points with bars.
-Curve curve_of(const Points& points, const std::string& title, Ink ink,
+Curve curve_of(const Points& points, const page::Text& title, Ink ink,
                MarkShape shape = MarkShape::circle);
 
 /// A function drawn between two x, evenly in log x where `is_log`.
@@ -129,7 +130,7 @@ struct Drawn {
   bool is_log;
 };
 template <class Function>
-Curve curve_of(const Function& function, const Drawn& range, const std::string& title, Ink ink,
+Curve curve_of(const Function& function, const Drawn& range, const page::Text& title, Ink ink,
                bool dashed = true) {
   Curve curve{.title = title, .ink = ink, .dashed = dashed};
   constexpr int parts = 200;

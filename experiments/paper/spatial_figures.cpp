@@ -52,8 +52,8 @@ Figure arrows_in_box(const std::vector<Displacement>& moves, double rms, const X
   const double aspect = (box.z_hi + 2.0 * margin) / (box.x_hi - box.x_lo + 2.0 * margin);
   return {.width = 800,
           .height = static_cast<int>(78.0 + 680.0 * aspect),  // margins of plot_layout
-          .panels = {{.x_label = "{/:Italic x}  (m): the driven wall is on the right",
-                      .y_label = "{/:Italic z}  (m)",
+          .panels = {{.x_label = page::marked("*x*  (m): the driven wall is on the right"),
+                      .y_label = page::marked("*z*  (m)"),
                       .y_min = -margin,
                       .y_max = box.z_hi + margin,
                       .x_min = box.x_lo - margin,
@@ -149,16 +149,14 @@ Panel panel_of(const Chains& chains, double width, const std::string& title, boo
              .y = {0.0, chains.box.z_hi},
              .ink = Ink::vermilion,
              .width = 3.0};
-  Panel panel{.x_label = "{/:Italic x}  (m)   " + title,
-              .y_label = "{/:Italic z}  (m)",
+  Panel panel{.x_label = page::marked("*x*  (m)   ") + title,
+              .y_label = page::marked("*z*  (m)"),
               .y_min = -chain_margin,
               .y_max = chains.box.z_hi + chain_margin,
               .x_min = chains.box.x_lo - chain_margin,
               .x_max = chains.box.x_hi + chain_margin,
               .curves = {walls, driven}};
-  const auto newtons = [&](size_t n) {
-    return plot_label(page::number(width * static_cast<double>(n), 2));
-  };
+  const auto newtons = [&](size_t n) { return page::number(width * static_cast<double>(n), 2); };
   for (size_t k = 0; k < classes; ++k) {
     if (curves[k].x.empty()) continue;
     curves[k].ink = Ink::black;
@@ -326,7 +324,7 @@ void fill_packing(PaperData& data, PaperSection& section) {
       for (size_t k = 0; k < 3; ++k)
         if (state.phase == phases[k].first) forces[k].add(state.relative_normal_forces());
     });
-  Panel panel{.x_label = "{/:Italic f}_n / ⟨{/:Italic f}_n⟩",
+  Panel panel{.x_label = page::marked("*f*~n~ / ⟨*f*~n~⟩"),
               .y_label = "probability density",
               .log_y = true};
   page::Text tails;

@@ -80,11 +80,11 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
   Curve motion = line_of(model.time, model_x, "model", Ink::black, 2.0);
   motion.dashed = true;
   return {.height = 760,
-          .panels = {{.x_label = "{/:Italic t} in the period  (s)",
-                      .y_label = "{/:Italic x} − {/:Italic x}_{jam}  (mm)",
+          .panels = {{.x_label = page::marked("*t* in the period  (s)"),
+                      .y_label = page::marked("*x* − *x*~jam~  (mm)"),
                       .curves = {line_of(time, x, "simulation", Ink::blue, 2.0), motion}},
-                     {.x_label = "{/:Italic v}  (mm/s)",
-                      .y_label = std::string("{/:Italic f}_g  (") + unit.name + ")",
+                     {.x_label = page::marked("*v*  (mm/s)"),
+                      .y_label = page::marked("*f*~g~  (") + unit.name + ")",
                       .curves = {loop, model_loop}}}};
 }
 

@@ -18,10 +18,10 @@ page::Picture run_picture(const std::string& name, int height, std::vector<Panel
           .caption = {std::move(caption)}};
 }
 
-/// A panel over the run's time.
-Panel time_panel(const RunData& data, const std::string& y_label, bool log_y = false) {
-  return {.x_label = "{/:Italic t}  (s)",
-          .y_label = y_label,
+/// A panel over the run's time; the label in the notation of page::marked().
+Panel time_panel(const RunData& data, const std::string& label, bool log_y = false) {
+  return {.x_label = page::marked("*t*  (s)"),
+          .y_label = page::marked(label),
           .log_y = log_y,
           .x_min = 0.0,
           .x_max = data.steps.back().time};
@@ -29,7 +29,7 @@ Panel time_panel(const RunData& data, const std::string& y_label, bool log_y = f
 
 /// `factor` times a column of the record against time.
 Curve column_line(const RunData& data, double StepRecord::*value, double factor,
-                  const std::string& title, Ink ink, double width) {
+                  const page::Text& title, Ink ink, double width) {
   return line_of(record_column(data.steps, &StepRecord::time),
                  record_column(data.steps, value, factor), title, ink, width);
 }
@@ -84,12 +84,12 @@ page::Text fit_caption(const ForceLaw& law) {
 
 /// One quantity of the wall at all steps, and at the jammed ones, on a logarithmic axis.
 Panel jammed_panel(const RunData& data, const WallCycles& cycles, const std::vector<double>& all,
-                   const char* y_label, double highest_end) {
+                   const char* label, double highest_end) {
   std::vector<double> jammed = all, positive = all;
   for (size_t k = 0; k < all.size(); ++k)
     if (cycles.phase[k] != WallPhase::jammed) jammed[k] = not_known;
   const auto time = record_column(data.steps, &StepRecord::time);
-  Panel panel = time_panel(data, y_label, true);
+  Panel panel = time_panel(data, label, true);
   panel.curves = {line_of(time, all, "all steps", Ink::light, 0.8),
                   line_of(time, jammed, "jammed", Ink::green, 1.2)};
   // single steps cross zero: the axis ends where one in a hundred is below
@@ -102,7 +102,7 @@ Panel jammed_panel(const RunData& data, const WallCycles& cycles, const std::vec
 page::Picture figure_12(const RunData& data, const RunSummary& summary) {
   const Compaction& compaction = summary.compaction;
   Panel panel;
-  draw_solid_fraction(data, compaction.initial, "Δ{/:Italic ρ}", Ink::blue, 1.8, panel);
+  draw_solid_fraction(data, compaction.initial, page::marked("Δ*ρ*"), Ink::blue, 1.8, panel);
   page::Text caption =
       page::words("run.fig12.paper", {{"initial", page::number(compaction.initial, 4)}});
   if (std::isfinite(compaction.reference))
@@ -117,7 +117,7 @@ page::Picture figure_12(const RunData& data, const RunSummary& summary) {
     panel.curves.push_back(
         {.x = {periods.front().begin, periods.back().end},
          .y = {change_after(periods.front().first), change_after(periods.back().last)},
-         .title = "gain per period " + plot_label(page::number(compaction.gain)),
+         .title = "gain per period " + page::number(compaction.gain),
          .ink = Ink::vermilion,
          .width = 1.8,
          .dashed = true});
@@ -134,10 +134,9 @@ page::Picture jammed_figure(const RunData& data, const RunSummary& summary) {
     speed.push_back(1e3 * std::abs(step.wall_v));
   }
   Panel above =
-      jammed_panel(data, summary.wall, miss,
-                   "|{/:Italic f}_g\u00a0−\u00a0{/:Italic f}\u2009| / {/:Italic f}_{max}", 1e-4);
-  above.lines = {{target::jammed_force, "10^{−3}", false, Ink::grey}};
-  const Panel below = jammed_panel(data, summary.wall, speed, "|{/:Italic v}|  (mm/s)", 1e300);
+      jammed_panel(data, summary.wall, miss, "|*f*~g~\u00a0−\u00a0*f*\u2009| / *f*~max~", 1e-4);
+  above.lines = {{target::jammed_force, page::marked("10^−3^"), false, Ink::grey}};
+  const Panel below = jammed_panel(data, summary.wall, speed, "|*v*|  (mm/s)", 1e300);
   page::Text caption = page::words("run.jammed.paper");
   const JammedState& jammed = summary.jammed;
   if (jammed.samples > 0)
@@ -148,18 +147,11 @@ page::Picture jammed_figure(const RunData& data, const RunSummary& summary) {
   return run_picture("jammed", 560, {above, below}, caption + page::words("run.jammed.look"));
 }
 
-bool is_zero(const RunData& data, double StepRecord::*value) {
-  return std::all_of(data.steps.begin(), data.steps.end(), [&](const StepRecord& s) {
-    return !(s.*value != 0.0) || std::isnan(s.*value);
-  });
-}
-
 page::Picture error_figure(const RunData& data, const RunSummary& summary) {
   const double scale = summary.facts.velocity_scale;
   const bool is_relative = std::isfinite(scale);
   const double factor = is_relative ? 1.0 / scale : 1.0;
-  Panel panel =
-      time_panel(data, is_relative ? "error\u00a0/\u00a0{/:Italic gh}" : "error  (m/s)", true);
+  Panel panel = time_panel(data, is_relative ? "error\u00a0/\u00a0*gh*" : "error  (m/s)", true);
   panel.curves = {
       column_line(data, &StepRecord::error_max, factor, "worst contact", Ink::light, 0.8),
       column_line(data, &StepRecord::error_rms, factor, "rms over contacts", Ink::blue, 1.4)};
@@ -229,8 +221,8 @@ page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
   Panel above = time_panel(data, "cumulative energy  (J)"),
         below = time_panel(data, "energy  (J)", true);
   const auto add_sum = [&](double StepRecord::*value, const char* title, Ink ink) {
-    if (is_zero(data, value)) return;
     auto sums = record_column(data.steps, value);
+    if (std::ranges::all_of(sums, [](double v) { return v == 0.0 || std::isnan(v); })) return;
     for (size_t k = 1; k < sums.size(); ++k) sums[k] += sums[k - 1];
     above.curves.push_back(line_of(time, sums, title, ink, 1.8));
   };
@@ -251,7 +243,7 @@ page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
 
 }  // namespace
 
-Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink,
+Curve line_of(std::vector<double> x, std::vector<double> y, const page::Text& title, Ink ink,
               double width) {
   thin_out(x, y, 3000);
   return {.x = std::move(x), .y = std::move(y), .title = title, .ink = ink, .width = width};
@@ -263,8 +255,8 @@ ForceUnit force_unit(double f_max) {
 
 page::Picture figure_3(const RunData& data, const RunSummary& summary) {
   const ForceUnit unit = force_unit(summary.facts.f_max);
-  Panel above = time_panel(data, "{/:Italic x}  (mm)"),
-        below = time_panel(data, std::string("{/:Italic f}  (") + unit.name + ")");
+  Panel above = time_panel(data, "*x*  (mm)"),
+        below = time_panel(data, std::string("*f*  (") + unit.name + ")");
   above.curves = {column_line(data, &StepRecord::wall_x, 1e3, "", Ink::blue, 2.0)};
   below.curves = {column_line(data, &StepRecord::load, unit.factor, "", Ink::vermilion, 2.0)};
   above.lines = {{0.0, "", false, Ink::light}};
@@ -289,8 +281,8 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   const ForceUnit unit = force_unit(summary.facts.f_max);
   const bool has_fits =
       std::isfinite(summary.law.active.r2) && std::isfinite(summary.law.passive.r2);
-  Panel panel{.x_label = "{/:Italic x}  (mm)",
-              .y_label = std::string("{/:Italic f}_g  (") + unit.name + ")",
+  Panel panel{.x_label = page::marked("*x*  (mm)"),
+              .y_label = page::marked("*f*~g~  (") + unit.name + ")",
               .y_min = 0.0};
   // each step grey below, the smoothed force of each phase in its colour above
   const auto add = [&](const std::vector<double>& force, const char* title, Ink ink, double width,
@@ -326,12 +318,12 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   return run_picture("fig04", 580, {panel}, caption);
 }
 
-void draw_solid_fraction(const RunData& data, double initial, const std::string& title, Ink ink,
+void draw_solid_fraction(const RunData& data, double initial, const page::Text& title, Ink ink,
                          double width, Panel& panel) {
   auto change = record_column(data.steps, &StepRecord::solid_fraction);
   for (double& value : change) value -= initial;
   std::vector<Curve> curves = std::move(panel.curves);
-  panel = time_panel(data, "Δ{/:Italic ρ}");
+  panel = time_panel(data, "Δ*ρ*");
   panel.lines = {{paper_window.begin, "0.2 s", true, Ink::grey}};
   curves.push_back(
       line_of(record_column(data.steps, &StepRecord::time), change, title, ink, width));

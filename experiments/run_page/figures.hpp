@@ -23,11 +23,11 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary);
 
 /// Draws the change of the solid fraction since before the drive into the panel of Fig. 12, beside
 /// what it shows already.
-void draw_solid_fraction(const RunData& data, double initial, const std::string& title, Ink ink,
+void draw_solid_fraction(const RunData& data, double initial, const page::Text& title, Ink ink,
                          double width, Panel& panel);
 
 /// A line of at most 3000 samples that look like all.
-Curve line_of(std::vector<double> x, std::vector<double> y, const std::string& title, Ink ink,
+Curve line_of(std::vector<double> x, std::vector<double> y, const page::Text& title, Ink ink,
               double width = 1.6);
 
 /// Unit in which forces up to f_max are readable.

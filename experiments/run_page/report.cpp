@@ -358,10 +358,8 @@ void write_report(const std::filesystem::path& folder) {
   std::string list;
   for (const std::string& set : list_at(data, "overrides"))
     list += (list.empty() ? "" : "\n") + set;
-  if (!list.empty()) {
-    parameters.add("Settings other than the scene’s (--set):");
-    parameters.add(page::Listing{list});
-  }
+  if (!list.empty()) parameters.add("Settings other than the scene’s (--set):");
+  parameters.add(page::Listing{list});
   parameters.add(page::Listing{data.scene_text, "The whole scene (scene.toml)"});
   page.add(std::move(parameters));
   page.add({"provenance",

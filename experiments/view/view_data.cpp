@@ -124,15 +124,6 @@ struct KnownBody {
   }
 };
 
-/// A body turns when it has six unknowns; its mass block is principal, about the body's axes.
-void read_mass(const DynamicsForm& dynamics, int body, KnownBody& known) {
-  if (dynamics.body_dofs(body) != 6) return;
-  const double* block = dynamics.mass.data() + dynamics.mass_begin[static_cast<size_t>(body)];
-  known.mass = block[0];
-  // a ball has 2/5 m r^2 about each of its three axes
-  known.radius = std::sqrt(5.0 * (block[21] + block[28] + block[35]) / (6.0 * block[0]));
-}
-
 std::map<int, KnownBody> known_bodies(const CapturedProblem& captured) {
   std::map<int, KnownBody> bodies;
   for (int c = 0; c < captured.problem.contact_count(); ++c)
@@ -141,7 +132,14 @@ std::map<int, KnownBody> known_bodies(const CapturedProblem& captured) {
       KnownBody& known = bodies[is_b ? captured.id_b[k] : captured.id_a[k]];
       const Vec3 point(captured.position.data() + 3 * k), normal(captured.frame.data() + 9 * k);
       const DynamicsForm& dynamics = captured.problem.dynamics;
-      read_mass(dynamics, is_b ? dynamics.body_b[k] : dynamics.body_a[k], known);
+      const int body = is_b ? dynamics.body_b[k] : dynamics.body_a[k];
+      // a body turns when it has six unknowns; its mass block is principal, about the body's axes
+      if (dynamics.body_dofs(body) == 6) {
+        const double* mass = dynamics.mass.data() + dynamics.mass_begin[static_cast<size_t>(body)];
+        known.mass = mass[0];
+        // a ball has 2/5 m r^2 about each of its three axes
+        known.radius = std::sqrt(5.0 * (mass[21] + mass[28] + mass[35]) / (6.0 * mass[0]));
+      }
       known.points.push_back(point);
       known.normals.push_back(is_b ? Vec3(-normal) : normal);
       if (const Vec3 lever = lever_of(captured, c, is_b); !lever.isZero())
@@ -204,11 +202,6 @@ ViewData bodies_of_problem(const CapturedProblem& captured, std::vector<FrameCon
   return view;
 }
 
-/// Above its capture/.
-fs::path run_folder_of(const fs::path& file) {
-  return fs::absolute(file).parent_path().parent_path();
-}
-
 /// The contacts as they were, with the forces of the run's own answer.
 std::vector<FrameContact> contacts_of(const CapturedProblem& captured) {
   std::vector<FrameContact> contacts;
@@ -236,19 +229,14 @@ ViewErrors errors_of(const CapturedProblem& captured, const std::string& backend
   for (const int iterations : question.iterations) {
     // a tolerance that nobody reaches: the budget alone ends a solve
     const Budget budget{.tolerance = 1e-14 * captured.velocity_scale(),
-                        .max_iterations = iterations,
-                        .max_seconds = question.max_seconds};
+                        .max_iterations = iterations};
     const SolverRun run = runner.run(*solver, captured.problem,
                                      question.is_warm ? captured.start : Impulses(), budget);
     std::vector<double> error = errors_by_contact(captured.problem, run.solved.impulses);
     for (double& value : error) value /= captured.velocity_scale();
     errors.error.push_back(std::move(error));
     errors.rms.push_back(run.error.natural_map_rms / captured.velocity_scale());
-    if (run.solved.reason == StopReason::time_limit) break;
   }
-  // whose time is over does not get further
-  errors.error.resize(question.iterations.size(), errors.error.back());
-  errors.rms.resize(question.iterations.size(), errors.rms.back());
   return errors;
 }
 
@@ -333,7 +321,8 @@ ViewData view_of_mesh(const fs::path& file) {
 
 ViewData view_of_problem(const fs::path& file, const ErrorQuestion& question) {
   const CapturedProblem captured = read_captured(file);
-  std::optional<ViewData> in_run = view_in_run(run_folder_of(file), captured);
+  const fs::path capture = fs::absolute(file).parent_path();
+  std::optional<ViewData> in_run = view_in_run(capture.parent_path(), captured);
   ViewData view = in_run ? std::move(*in_run) : bodies_of_problem(captured, contacts_of(captured));
   view.title = printed("Where answers are wrong: step %d, %d contact points", captured.step,
                        captured.problem.contact_count());

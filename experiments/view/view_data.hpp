@@ -74,8 +74,7 @@ size_t nearest_frame(const std::vector<MotionState>& frames, double time);
 struct ErrorQuestion {
   std::vector<std::string> backends = {"pgs", "auto"};
   std::vector<int> iterations = {1, 3, 10, 30, 100, 300, 1000};
-  bool is_warm = false;       ///< from the captured start; else from zero
-  double max_seconds = 1e30;  ///< of one solve: larger budgets have the answer that it reached
+  bool is_warm = false;  ///< from the captured start; else from zero
 };
 
 /// The bodies of a captured problem with its contacts and forces, and the judge's error of every

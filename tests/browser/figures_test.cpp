@@ -20,8 +20,8 @@ page::Page wide_page() {
   const std::vector<double> x{0, 1, 2}, y{1, 1, 1};
   panel.curves = {
       {.x = x, .y = y, .title = "below", .ink = Ink::blue, .width = 2.0},
-      {.x = x, .y = y, .title = "above {/:Italic f}_g", .ink = Ink::vermilion, .width = 4.0}};
-  panel.lines = {{1.5, "asked: {/:Italic x}"}};
+      {.x = x, .y = y, .title = page::marked("above *f*~g~"), .ink = Ink::vermilion, .width = 4.0}};
+  panel.lines = {{1.5, page::marked("asked: *x*")}};
   // two pieces: what is between them has neither x nor y
   const double none = std::nan("");
   panel.curves.push_back({.x = {0, 0.5, none, 1.5, 2},

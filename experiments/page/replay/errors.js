@@ -81,13 +81,11 @@ class ErrorView {
       slider("budget", "iterations", 0, iterations.length - 1, this.budget, 1),
       element("output", { id: "replay-budgettext" }),
       control("worst", "worst contact", "Look at the most wrong contact of the left picture"));
-    const listen = (id, event, action) => {
-      if (part(id)) part(id).addEventListener(event, () => {
-        action(part(id));
-        this.say();
-        replay.touched();
-      });
-    };
+    const listen = (id, event, action) => listenTo(id, event, (one) => {
+      action(one);
+      this.say();
+      replay.touched();
+    });
     listen("left", "change", (select) => { this.shown[0] = +select.value; });
     listen("right", "change", (select) => { this.shown[1] = +select.value; });
     listen("budget", "input", (slider_) => { this.budget = +slider_.value; });

@@ -77,37 +77,27 @@ function listenToKeys(canvas, replay) {
 
 // Buttons, sliders and choices.
 function listenToPanel(replay) {
-  const on = (id, event, action) => {
-    const found = part(id);
-    if (found) found.addEventListener(event, () => action(found));
-  };
-  on("play", "click", () => replay.setPlaying(!replay.playing));
-  on("back", "click", () => replay.step(-1));
-  on("on", "click", () => replay.step(1));
-  on("time", "input", (slider_) => {
+  listenTo("play", "click", () => replay.setPlaying(!replay.playing));
+  listenTo("back", "click", () => replay.step(-1));
+  listenTo("on", "click", () => replay.step(1));
+  listenTo("time", "input", (slider_) => {
     replay.setPlaying(false);
     replay.setTime(+slider_.value);
   });
-  on("rate", "change", (select) => {
+  listenTo("rate", "change", (select) => {
     replay.rate = +select.value;
     replay.touched();
   });
-  on("colour", "change", (select) => replay.set({ colour: select.value }));
-  on("grains", "change", (select) => replay.set({ grains: select.value }));
-  on("chains", "change", (box) => replay.set({ chains: box.checked,
-    grains: box.checked ? "ghost" : replay.options.points ? "ghost" : "solid" }));
-  on("points", "change", (box) => replay.set({ points: box.checked,
-    grains: box.checked ? "ghost" : replay.options.chains ? "ghost" : "solid" }));
-  on("threshold", "input", (slider_) => replay.set({ threshold: +slider_.value }));
-  on("cut", "change", (select) => replay.set({ cut: select.value }));
-  on("cutat", "input", (slider_) => replay.set({ cutAt: +slider_.value }));
-  for (const name of ["x", "-x", "y", "-y", "z"])
-    on("view" + name, "click", () => {
-      replay.camera.along(name);
+  for (const name of ["colour", "grains", "cut"])
+    listenTo(name, "change", (select) => replay.set({ [name]: select.value }));
+  for (const [name, other] of [["chains", "points"], ["points", "chains"]])
+    listenTo(name, "change", (box) => replay.set({ [name]: box.checked,
+      grains: box.checked || replay.options[other] ? "ghost" : "solid" }));
+  listenTo("threshold", "input", (slider_) => replay.set({ threshold: +slider_.value }));
+  listenTo("cutat", "input", (slider_) => replay.set({ cutAt: +slider_.value }));
+  for (const name of ["home", "x", "-x", "y", "-y", "z"])
+    listenTo("view" + name, "click", () => {
+      if (name === "home") replay.camera.home(); else replay.camera.along(name);
       replay.touched();
     });
-  on("viewhome", "click", () => {
-    replay.camera.home();
-    replay.touched();
-  });
 }

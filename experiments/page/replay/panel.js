@@ -14,6 +14,12 @@ const control = (id, text, title) =>
 const tick = (id, words) => element("label", {},
   element("input", { id: "replay-" + id, type: "checkbox" }), words);
 
+// `action` is given the element, if the page has it, whenever that tells the event.
+function listenTo(id, event, action) {
+  const found = part(id);
+  if (found) found.addEventListener(event, () => action(found));
+}
+
 // All elements, in the place of the still picture.
 function buildPanel(data, shades) {
   const place = part("stage"), moves = data.times.length > 1;

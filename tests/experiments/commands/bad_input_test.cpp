@@ -30,6 +30,12 @@ TEST_CASE("a wrong command line is exit code 2") {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrongs = {
       {{}, "subcommand"},
       {{"simulate"}, "simulate"},
+      {{"rnu", "incline"}, "no command 'rnu', did you mean \"run\"?"},
+      {{"bench", "stp"}, "did you mean \"step\"?"},
+      {{"run", "incline", "--ouput=x"}, "run: no option --ouput, did you mean \"--output\"?"},
+      {{"solve", "p.hdf5", "--solver", "prox_neton"}, "did you mean \"prox_newton\"?"},
+      {{"compare", "diff", "a", "b", "--lest", "2"}, "--lest, did you mean \"--least\""},
+      {{"compare", "known:", "--solver", "pgs"}, "--solver, did you mean"},
       {{"--fast"}, "--fast"},
       {{"run"}, "scene"},
       {{"run", scene, "--fast"}, "--fast"},
@@ -47,7 +53,7 @@ TEST_CASE("a wrong command line is exit code 2") {
       {{"solve", "p.hdf5", "--max-iterations", "0"}, "--max-iterations"},
       {{"solve", "p.hdf5", "--max-iterations", "1.5"}, "1.5"},
       {{"solve", "p.hdf5", "--max-seconds", "-2"}, "--max-seconds"},
-      {{"compare"}, "cases"},
+      {{"compare"}, "expected cases, or --live"},
       {{"bench"}, "subcommand"},
       {{"bench", "step", "--steps", "0"}, "--steps"},
       {{"bench", "step", "--threads", "1,x"}, "--threads"},
@@ -63,7 +69,7 @@ TEST_CASE("a wrong command line is exit code 2") {
       {{"compare", "p.hdf5", "--solvers", "pgs,"}, "--solvers"},
       {{"compare", "p.hdf5", "--tolerances", "1e-4,0"}, "--tolerances"},
       {{"compare", "p.hdf5", "--tolerances", ""}, "--tolerances"},
-      {{"compare", "p.hdf5", "--starts", "hot"}, "hot"},
+      {{"compare", "p.hdf5", "--starts", "hot"}, "'hot' is no start"},
       {{"compare", "p.hdf5", "--measure", "feeling"}, "feeling"},
       {{"compare", "p.hdf5", "--repeats", "0"}, "--repeats"},
       {{"compare", "p.hdf5", "--max-seconds", "-1"}, "--max-seconds"},
@@ -132,6 +138,7 @@ TEST_CASE("a bad override or an unknown scene is exit code 1") {
   const std::string output = (folder.path() / "run").string();
   const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> wrongs = {
       {{"no_such_scene"}, {"no_such_scene", "vibrated_box"}},
+      {{"inclin"}, {"did you mean \"incline\"?"}},
       {{"no/such/scene.toml"}, {"no/such/scene.toml"}},
       {{folder.path().string()}, {folder.path().string()}},
       {{"incline", "--set", "scene.step"},

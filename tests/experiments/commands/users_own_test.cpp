@@ -159,15 +159,3 @@ TEST_CASE("every signal that means an end leaves a checkpoint, and --continue en
            read_whole_file(folder.path() / "whole" / "checkpoint.bin")));
   }
 }
-
-TEST_CASE("what was probably meant is said: commands, options, scenes, solvers") {
-  check_failure(ballast_program({"rnu", "incline"}), ExitCode::usage,
-                {"no command 'rnu', did you mean \"run\"?"});
-  check_failure(ballast_program({"bench", "stp"}), ExitCode::usage, {"did you mean \"step\"?"});
-  check_failure(ballast_program({"run", "incline", "--ouput=x"}), ExitCode::usage,
-                {"run: no option --ouput, did you mean \"--output\"?"});
-  check_failure(ballast_program({"run", "inclin"}), ExitCode::failure,
-                {"did you mean \"incline\"?"});
-  check_failure(ballast_program({"solve", "p.hdf5", "--solver", "prox_neton"}), ExitCode::usage,
-                {"did you mean \"prox_newton\"?"});
-}

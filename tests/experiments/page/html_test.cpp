@@ -110,10 +110,10 @@ Page answering_page() {
   Page page = small_page();
   page.answers = {.are_given = true, .with_curves = true};
   Panel& panel = std::get<Picture>(page.sections[2].blocks[0]).plot.panels[0];
-  panel.x_label = "{/:Italic t}  (s)";
+  panel.x_label = marked("*t*  (s)");
   panel.log_y = true;
   panel.y_min = 1e-3;
-  panel.curves = {{.x = {0.0, 1.0}, .y = {std::nan(""), 1.0 / 3.0}, .title = "a\\_b</script>"}};
+  panel.curves = {{.x = {0.0, 1.0}, .y = {std::nan(""), 1.0 / 3.0}, .title = "a_b</script>"}};
   panel.lines = {{.value = 0.5}};
   return page;
 }
@@ -124,8 +124,8 @@ TEST_CASE("curves stand in the page as numbers, and nothing in them ends their e
   check_page(without_scripts(html));
   const Json picture = data_in(html).at("pictures").at(0), panel = picture.at("panels").at(0);
   CHECK(picture["name"] == "wall");
-  CHECK(panel["x"]["label"] == "<i>t</i>\u00a0 (s)");
-  CHECK(panel["x"]["words"] == "t\u00a0 (s)");
+  CHECK(panel["x"]["label"] == "<i>t</i>  (s)");
+  CHECK(panel["x"]["words"] == "t  (s)");
   CHECK(panel["y"] == Json{{"label", ""}, {"words", ""}, {"log", true}, {"min", 1e-3}});
   const Json& curve = panel["curves"][0];
   CHECK(curve["title"] == "a_b</script>");  // as it is read, no HTML

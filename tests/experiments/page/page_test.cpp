@@ -38,7 +38,7 @@ TEST_CASE("every picture is drawn beside the page, as SVG and script") {
 TEST_CASE("a picture for pages that show its file is on white, its script gone") {
   const TemporaryFolder folder;
   Page page = page_with({picture("one")});
-  draw_pictures(page, folder.path(), {.with_script = false, .on_white = true});
+  draw_pictures(page, folder.path(), {.is_file_shown = true});
   const fs::path figures = folder.path() / picture_folder;
   CHECK_THAT(read_whole_file(figures / "one.svg"), Contains("fill=\"#ffffff\"/>"));
   CHECK_THAT(std::get<Picture>(page.sections[0].blocks[1]).svg, !Contains("fill=\"#ffffff\"/>"));

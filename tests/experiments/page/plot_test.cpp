@@ -23,11 +23,18 @@ Curve curve(std::vector<double> x, std::vector<double> y, const std::string& tit
   return {.x = std::move(x), .y = std::move(y), .title = title, .mark = mark};
 }
 
-Figure simple_figure(const std::string& label = "{/:Italic x}  (mm)") {
+Figure simple_figure(const page::Text& label = page::marked("*x*  (mm)")) {
   return {.name = "simple",
           .panels = {{.x_label = "time",
                       .y_label = label,
                       .curves = {curve({0, 1, 2, 3}, {1, 4, not_known, 2}, "a title")}}}};
+}
+
+/// What stands in a script between two words.
+std::string between(const std::string& script, const std::string& before,
+                    const std::string& after) {
+  const size_t begin = script.find(before) + before.size();
+  return script.substr(begin, script.find(after, begin) - begin);
 }
 
 /// A folder with an executable `gnuplot` that is this shell script.
@@ -74,7 +81,7 @@ TEST_CASE("labels cannot run commands or end their string") {
   const fs::path trap = folder.path() / "trap";
   const std::string hostile = "it's `touch " + trap.string() + "`'; system('touch " +
                               trap.string() + "') #\n!touch " + trap.string();
-  Figure figure = simple_figure(plain_text(hostile));
+  Figure figure = simple_figure(hostile);
   figure.panels[0].curves[0].title = hostile;
   figure.panels[0].lines = {{2.0, hostile, false, Ink::grey}};
   const std::string svg = render_svg(figure, folder.path());
@@ -82,8 +89,13 @@ TEST_CASE("labels cannot run commands or end their string") {
   CHECK_THAT(svg, Contains("system("));
 }
 
-TEST_CASE("plain text keeps what enhanced text would take for markup") {
-  CHECK(plain_text("pgs_warm {x^2} a&b ~@\\") == "pgs\\_warm \\{x\\^2\\} a\\&b \\~\\@\\\\");
+TEST_CASE("styles of a label are gnuplot's; what is no style is no markup of gnuplot either") {
+  const auto label = [](const page::Text& text) {
+    return between(gnuplot_script(simple_figure(text)), "set ylabel ", "\n");
+  };
+  CHECK(label(page::marked("*f*~max~ = **2**×10^−4^ N\n")) ==
+        "'{/:Italic f}_{max} = {/:Bold 2}×10^{−4} N '");
+  CHECK(label("pgs_warm {x^2} a&b's ~@\\") == "'pgs\\_warm \\{x\\^2\\} a\\&b''s \\~\\@\\\\'");
 }
 
 TEST_CASE("a figure without a value is refused by name, a missing gnuplot too") {
@@ -149,13 +161,6 @@ TEST_CASE("thinned curves keep their extremes and their order") {
   std::vector<double> few{1, 2}, as_few{3, 4};
   thin_out(few, as_few, 400);
   CHECK(few == std::vector<double>{1, 2});
-}
-
-/// What stands in a script between two words.
-std::string between(const std::string& script, const std::string& before,
-                    const std::string& after) {
-  const size_t begin = script.find(before) + before.size();
-  return script.substr(begin, script.find(after, begin) - begin);
 }
 
 TEST_CASE("axes hold every value, bar and reference line, with room around them") {

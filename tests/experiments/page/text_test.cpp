@@ -49,21 +49,9 @@ TEST_CASE("faults of a notation are said with the text") {
     CHECK_THROWS_WITH(marked(wrong), Contains(wrong));
 }
 
-TEST_CASE("plain words and labels of plots") {
+TEST_CASE("plain words") {
   const Text text = marked("*f*~max~ = 2×10^−4^ N & x^a^\n");
   CHECK(plain_words(text) == "f_max = 2×10⁻⁴ N & x^a ");
-  CHECK(plot_label(text) == "{/:Italic f}_{max} = 2×10^{−4} N \\& x^{a} ");
-  CHECK(plot_label("a_b{") == "a\\_b\\{");
-}
-
-TEST_CASE("labels of plots are read back as words") {
-  CHECK(label_words("{/:Italic f_g}  (N)") ==
-        marked("*f*") + Text("g", symbol | subscript) + "\u00a0 (N)");
-  CHECK(label_words("|{/:Italic x}_{ref}| 10^{−3} µm") == marked("|*x*~ref~| 10^−3^ µm"));
-  for (const char* words : {"a_b{c} <b> ~@&\\^", "λ ≤ 1"})
-    CHECK(label_words(plot_label(words)) == words);
-  CHECK(label_words("{/:Italic") == "/:Italic");  // unfinished: read to its end
-  CHECK(label_words("a_") == "a_");
 }
 
 TEST_CASE("what is no UTF-8 and what controls a terminal is replaced") {

@@ -22,20 +22,6 @@ TEST_CASE("lines are thinned, forces have a readable unit") {
 
 using Catch::Matchers::Contains;
 
-std::vector<std::string> names_of(const std::vector<page::Picture>& pictures) {
-  std::vector<std::string> names;
-  for (const page::Picture& picture : pictures) names.push_back(picture.plot.name);
-  return names;
-}
-
-TEST_CASE("a box has the paper's figures, a slide has none") {
-  const BoxRun box = box_run();
-  CHECK(names_of(paper_figures(box.data, box.summary)) ==
-        std::vector<std::string>{"fig03", "fig04", "fig12"});
-  const BoxRun slide = slide_run();
-  CHECK(paper_figures(slide.data, slide.summary).empty());
-}
-
 TEST_CASE("the loop's phases take each step once, and the axis cuts spikes off") {
   BoxRun box = box_run();
   const WallCycles& cycles = box.summary.wall;

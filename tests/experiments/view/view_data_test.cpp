@@ -104,11 +104,6 @@ TEST_CASE("the error of a captured problem falls with the iterations, contact by
             1e-9 * errors.rms[budget] + 1e-15);
     }
   }
-  // without time for a second iteration larger budgets come to the same
-  const ViewData hurried =
-      view_of_problem(file, {.backends = {"pgs"}, .iterations = {1, 10, 100}, .max_seconds = 0.0});
-  CHECK((hurried.errors[0].rms.size() == 3 && hurried.errors[0].error.size() == 3));
-  CHECK(hurried.errors[0].rms[2] == hurried.errors[0].rms[0]);
   CHECK(view.errors[0].rms[1] < 0.1 * view.errors[0].rms[0]);
   const fs::path page = folder.path() / "page.html";
   write_view_page(view, page);
