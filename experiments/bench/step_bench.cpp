@@ -15,11 +15,11 @@
 #include "experiments/measure/wall_cycles.hpp"
 #include "experiments/step/step_record.hpp"
 #include "experiments/step/time_step.hpp"
-#include "platform/program.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/pack.hpp"
+#include "platform/program.hpp"
 #include "platform/worker_team.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -266,8 +266,7 @@ std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
   const auto step = std::make_shared<StepWork>(box, steps);
   std::vector<Kernel> kernels;
   for (const bool use_cache : {false, true}) {
-    const auto work =
-        std::make_shared<DetectionWork>(step->start, box.scene.detection, use_cache);
+    const auto work = std::make_shared<DetectionWork>(step->start, box.scene.detection, use_cache);
     work->all();
     const double pairs = static_cast<double>(work->detector.counters().candidate_pairs);
     kernels.push_back({"detection", use_cache ? "axes kept" : "from scratch", "ns/pair",

@@ -13,11 +13,11 @@
 
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/program.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/pack.hpp"
+#include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "solvers/solver_list.hpp"
 

@@ -216,13 +216,11 @@ std::vector<Law> all_laws() {
   const auto series = all_series();
   const Axis rise{rise_of, "Δ*x*~max~  (mm)", 1e3},
       prefactor{prefactor_of, "*C* = Δ*x*~max~ / *X*", 1.0},
-      frequency{frequency_of, "*ν*  (Hz)", 1.0},
-      speed{speed_of, "*v*~max~  (mm/s)", 1e3},
+      frequency{frequency_of, "*ν*  (Hz)", 1.0}, speed{speed_of, "*v*~max~  (mm/s)", 1e3},
       force{series[1].along, "*f*~max~ / (*m g*)", 1.0},
       gravity{series[2].along, "*g*  (m/s^2^)", 1.0},
       mass{series[3].along, "*m* / (*m* + *m*~w~)", 1.0},
-      eq3{eq3_of, "right side of Eq. 3 without *C*  (mm)", 1e3},
-      aspect{aspect_of, "*L*/*H*", 1.0},
+      eq3{eq3_of, "right side of Eq. 3 without *C*  (mm)", 1e3}, aspect{aspect_of, "*L*/*H*", 1.0},
       theory{theory_of, "*C* by the theory, from the force as measured", 1.0};
   const std::vector<Series> all(series.begin(), series.end());
   const Selection slow{"5 Hz", "box frequency=5"}, fast{"20 Hz", "box frequency=20"},
