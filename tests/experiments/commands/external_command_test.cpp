@@ -60,7 +60,7 @@ fs::path answer_of_nan(const fs::path& file, int contacts, int id) {
   request.problem.friction.assign(static_cast<size_t>(contacts), 0.5);
   request.id = id;
   ExternalAnswer answer;
-  answer.reason = StopReason::reached_tolerance;
+  answer.status = static_cast<int>(StopReason::reached_tolerance);
   answer.impulses = Impulses::Constant(3 * contacts, std::nan(""));
   write_answer(file, request, answer);
   return file;
