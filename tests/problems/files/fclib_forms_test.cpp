@@ -115,7 +115,7 @@ TEST_CASE(
       {6, 0, {{0, 0, -1.0}}, "M(0, 0) = -1"},
       {8, 0, {{3, 3, 0.0}}, "M is singular"},
       // A body's block: the lower triangle alone would be taken for the whole.
-      {6, 0, {{0, 1, 0.5}}, "dynamics.mass["},
+      {6, 0, {{0, 1, 0.5}}, "dynamics.mass[6] = "},
       {6, 0, {{0, 1, 2.0}, {1, 0, 2.0}}, "not positive definite"},  // eigenvalues -1 and 3
       // Eight unknowns are no bodies: W shows it.
       {8, 3, {{3, 3, -1.0}}, "delassus.w(0, 0) = -16 is negative"}};
