@@ -31,7 +31,7 @@ LiveOptions small_live(const std::filesystem::path& folder) {
   options.start = 2e-3;
   options.duration = 4e-3;
   options.max_seconds = 5.0;
-  options.telling = Telling::nobody;
+  options.style = StatusLine::Style::quiet;
   options.folder = folder;
   return options;
 }
