@@ -176,14 +176,13 @@ bool takes(const Selection& selection, const RunRow& row) {
 
 std::vector<CampaignRun> read_campaign(const CampaignSettings& settings) {
   Plan plan = settings.plan.empty() ? built_in_plan() : read_plan(settings.plan);
+  // Only those that are wanted: an override may fit no scene but theirs.
+  if (!settings.only.empty()) plan.runs = select(plan, settings.only);
+  std::vector<CampaignRun> runs;
   for (PlannedRun& run : plan.runs) {
     if (!settings.scene.empty() && run.scene == usual_scene) run.scene = settings.scene;
     run.overrides.insert(run.overrides.end(), settings.overrides.begin(), settings.overrides.end());
     run = planned_run(run.name, run.scene, run.overrides);
-  }
-  if (!settings.only.empty()) plan.runs = select(plan, settings.only);
-  std::vector<CampaignRun> runs;
-  for (const PlannedRun& run : plan.runs) {
     if (run.packing.empty())
       throw SceneFileError(run.scene + ": has no [grains], expected a vibrated box");
     runs.push_back({run, run.name.substr(0, run.name.find_first_of("-.")), run.key, run.steps});

@@ -3,13 +3,12 @@
 // elsewhere, nothing when quiet.
 
 #include <functional>
-#include <iostream>
+#include <iosfwd>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "experiments/step/step_record.hpp"
-#include "platform/clock.hpp"
 #include "platform/status_line.hpp"
 
 namespace ballast {
@@ -18,10 +17,10 @@ class Progress {
  public:
   using Style = StatusLine::Style;
 
+  /// To stderr.
+  explicit Progress(Style style);
   /// `clock`: seconds from anywhere, increasing.
-  explicit Progress(
-      Style style, std::ostream& out = std::cerr,
-      std::function<double()> clock = [watch = Stopwatch()] { return watch.seconds(); });
+  Progress(Style style, std::ostream& out, std::function<double()> clock);
 
   /// After each step: `time` of `total` [s], NaN where that is not known, in the phase `label`.
   /// Steps are counted by the calls; rate and time left are those since the first call of the
