@@ -161,12 +161,12 @@ Command scaling_command() {
   const auto request = std::make_shared<BenchRequest>();
   ScalingOptions& scaling = request->scaling;
   scaling.grains = {1000, 10000, 100000};
+  constexpr int most_grains = most_count / 10;
   return measuring(
       "scaling", "Cost per grain of growing packings: copies of the deposited one side by side",
       request, bench_scaling,
       {{"--grains", &scaling.grains,
-        "Grains, separated by commas: each the nearest number of copies",
-        between(1, most_count / 10)},
+        "Grains, separated by commas: each the nearest number of copies", between(1, most_grains)},
        {"--threads", &scaling.threads, "Threads of the solver, separated by commas",
         between(1, 256)},
        {"--steps", &scaling.steps, "Measured steps", between(1, most_count)},

@@ -246,7 +246,10 @@ class Comparison {
     }
     if (loaded.warm_start.size() == 0) std::erase(starts, StartKind::warm);
     done_ += pairs * (options_.starts.size() - starts.size());
-    if (row.verdict == Verdict::unreadable) add(std::move(row), false);
+    if (row.verdict == Verdict::unreadable) {
+      add(std::move(row), false);
+      return;
+    }
     if (starts.empty()) return;
     find_exact(loaded, options_.exact_seconds, options_.folder / "exact");
     row.facts = loaded.facts;

@@ -190,7 +190,7 @@ FrictionProblem condensed(const FrictionProblem& problem) {
     w.setFromTriplets(entries.begin(), entries.end());
     q = three_rows(problem, q);
   }
-  return local_problem(std::move(w), std::move(q), problem.friction);
+  return local_problem(w, std::move(q), problem.friction);
 }
 
 // The layout.
