@@ -67,9 +67,10 @@ AtomicFile::AtomicFile(fs::path target) : name_(std::move(target)), target_(repl
   file_ = target_.empty() ? std::fopen(name_.c_str(), "wb") : std::fopen(neighbour_.c_str(), "w+b");
   if (!file_) throw_file_error(name_, "write");
   // Who may read and write it stays as it was; where it is not ours to say, it stays new.
-  struct stat old;
-  if (!target_.empty() && stat(target_.c_str(), &old) == 0 &&
-      fchmod(fileno(file_), old.st_mode & 07777) != 0)
+  // A neighbour that leads to a device stays as it is.
+  struct stat old, mine;
+  if (!target_.empty() && stat(target_.c_str(), &old) == 0 && fstat(fileno(file_), &mine) == 0 &&
+      S_ISREG(mine.st_mode) && fchmod(fileno(file_), old.st_mode & 07777) != 0)
     errno = 0;
 }
 

@@ -102,14 +102,15 @@ herr_t write_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size,
 herr_t read_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size, void* buffer) {
   std::memset(buffer, 0, size);
   Hdf5Disk& disk = *of(file).disk;
-  if (pread(disk.descriptor, buffer, size, static_cast<off_t>(offset)) < 0) disk.error = errno;
+  if (disk.error == 0 && pread(disk.descriptor, buffer, size, static_cast<off_t>(offset)) < 0)
+    disk.error = errno;
   return 0;
 }
 
 /// The file ends where the last address was given away.
 herr_t end_file(H5FD_t* file, hid_t, hbool_t) {
   OpenFile& open = of(file);
-  if (open.length != open.given &&
+  if (open.disk->error == 0 && open.length != open.given &&
       ftruncate(open.disk->descriptor, static_cast<off_t>(open.given)) != 0)
     open.disk->error = errno;
   open.length = open.given;

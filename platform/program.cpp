@@ -157,8 +157,7 @@ constexpr const char* one_algebra_thread[] = {"OPENBLAS_NUM_THREADS=1", "OMP_NUM
 /// memory may be asked for when there are threads. They point to what they are made of.
 using Words = std::vector<const char*>;
 
-Words words_of(const std::string& program, const std::vector<std::string>& arguments) {
-  Words words{program.c_str()};
+Words words_of(Words words, const std::vector<std::string>& arguments) {
   for (const std::string& word : arguments) words.push_back(word.c_str());
   words.push_back(nullptr);
   return words;
@@ -203,7 +202,7 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
   constexpr rlim_t most_bytes = 256u << 20;
   const MemoryFile output, errors;
   // Nothing that changes what gnuplot writes.
-  const Words words = words_of(program, arguments),
+  const Words words = words_of({program.c_str()}, arguments),
               environment = changed_environment({"LC_ALL=", "GNUPLOT", "GNUTERM="}, {"LC_ALL=C"});
   ChildProcess child([&] {
     const rlimit limit{most_bytes, most_bytes};
@@ -228,7 +227,7 @@ std::unique_ptr<ChildProcess> start_program(const fs::path& program,
   const int opened = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (opened < 0) throw_file_error(log, "open");
   const Descriptor file(opened);
-  const Words words = words_of(program.native(), arguments),
+  const Words words = words_of({program.c_str()}, arguments),
               environment = changed_environment({}, unsaid_threads());
   return std::make_unique<ChildProcess>([&] {
     setpgid(0, 0);
@@ -322,9 +321,7 @@ SupervisedProgram::SupervisedProgram(const std::string& command,
                                      const std::vector<std::string>& arguments,
                                      const SupervisedLimits& limits) {
   const std::string script = command + " \"$@\"";
-  Words words{"/bin/sh", "-c", script.c_str()};
-  const Words given = words_of("sh", arguments);
-  words.insert(words.end(), given.begin(), given.end());
+  const Words words = words_of({"/bin/sh", "-c", script.c_str(), "sh"}, arguments);
   const Words environment = changed_environment({}, {});
   const Ends talk, errors;
   talk_ = talk.ours;
@@ -345,9 +342,12 @@ SupervisedProgram::SupervisedProgram(const std::string& command,
 }
 
 SupervisedProgram::~SupervisedProgram() {
-  // The supervisor clears up; if even it does not end, ChildProcess kills it.
-  supervisor_->send(SIGTERM);
-  supervisor_->ends_within(10.0);
+  // The supervisor clears up; if even it does not end, ChildProcess kills it. One that has just
+  // been forked still has our handler, which may swallow the signal: it is asked again.
+  for (int k = 0; k < 100; ++k) {
+    supervisor_->send(SIGTERM);
+    if (supervisor_->ends_within(0.1)) break;
+  }
   for (const int end : {talk_, errors_})
     if (end >= 0) close(end);
 }
@@ -450,9 +450,7 @@ void restart_with_one_algebra_thread() {
   const Words unsaid = unsaid_threads();
   if (unsaid.empty() || words.empty()) return;
   const Words environment = changed_environment({}, unsaid);
-  Words pointers;
-  for (const std::string& word : words) pointers.push_back(word.c_str());
-  pointers.push_back(nullptr);
+  const Words pointers = words_of({}, words);
   execve("/proc/self/exe", const_cast<char* const*>(pointers.data()),
          const_cast<char* const*>(environment.data()));
   throw Error("cannot start anew with OPENBLAS_NUM_THREADS=1");

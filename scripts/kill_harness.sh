@@ -57,8 +57,8 @@ begin() {
   esac
 }
 
-# columns FILE PATTERN: a table without the columns whose names match. A comma within quotation marks
-# separates nothing.
+# columns FILE PATTERN: a table without the columns whose names match. A comma within quotation
+# marks separates nothing.
 columns() {
   sed -E ':a; s/^(([^"]*"[^"]*")*[^"]*"[^",]*),/\1;/; ta' "$1" |
     awk -F, -v drop="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) keep[i] = $i !~ drop }

@@ -74,7 +74,7 @@ inline Vec3 contact_normal(const Mat3& rotation, const Plane& plane) {
 /// A corner of a clipped polygon.
 struct ClippedPoint {
   Vec3 position;  ///< in the reference body's frame [m]
-  double height;  ///< over the reference face [m]; set by the contact rule (contact_normal.hpp)
+  double height;  ///< over the reference face [m]; set by set_heights()
   std::uint64_t key;
   int next_edge;  ///< runs to the next corner: an edge e of the incident body, or ~k for side k of
                   ///< the reference face

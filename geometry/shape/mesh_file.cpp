@@ -74,20 +74,17 @@ std::string quoted(std::string_view word) {
 
 /// A whole word as a number, in the C locale whatever the program's locale is.
 template <class Number>
-bool parse(std::string_view word, Number& number) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const std::optional<Number> value = parsed<Number>(word);
-  number = value.value_or(Number());
-  return value.has_value();
+std::optional<Number> number_of(std::string_view word) {
+  return parsed<Number>(word.starts_with('+') ? word.substr(1) : word);
 }
 
 /// A coordinate: a finite number.
 double parse_coordinate(std::string_view word, const Place& place) {
-  double value = 0.0;
   if (word.empty()) place.fail("a coordinate is missing");
-  if (!parse(word, value)) place.fail(quoted(word) + " is no number in range");
-  if (!std::isfinite(value)) place.fail("coordinate " + quoted(word) + " is not finite");
-  return value;
+  const std::optional<double> value = number_of<double>(word);
+  if (!value) place.fail(quoted(word) + " is no number in range");
+  if (!std::isfinite(*value)) place.fail("coordinate " + quoted(word) + " is not finite");
+  return *value;
 }
 
 // ---- OBJ
@@ -110,8 +107,8 @@ void read_vertex(std::string_view rest, const Place& place, RawMesh& mesh) {
 void read_face(std::string_view rest, const Place& place, RawMesh& mesh) {
   std::vector<int> face;
   for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
-    int index = 0;
-    if (!parse(word.substr(0, word.find('/')), index) || index == 0)
+    const int index = number_of<int>(word.substr(0, word.find('/'))).value_or(0);
+    if (index == 0)
       place.fail(quoted(word) + " is no vertex index (they count from 1, or from -1 backwards)");
     const int known = static_cast<int>(mesh.vertices.size());
     if (index < -known)

@@ -1,7 +1,5 @@
 #include "problems/algebra/delassus.hpp"
 
-#include <string>
-
 namespace ballast {
 namespace {
 

@@ -454,6 +454,17 @@ void FrictionProblem::validate(KnownMasses* valid) const {
          " contacts has neither form");
 }
 
+FrictionProblem local_problem(SparseRows&& w, Eigen::VectorXd q, std::vector<double> mu) {
+  FrictionProblem problem;
+  problem.friction = std::move(mu);
+  for (int c = 0; c < problem.contact_count(); ++c) problem.row_begin.push_back(3 * (c + 1));
+  problem.has_delassus = true;
+  problem.delassus.w.swap(w);
+  problem.delassus.w.makeCompressed();
+  problem.delassus.q = std::move(q);
+  return problem;
+}
+
 bool KnownMasses::are_of(const DynamicsForm& dynamics) const {
   return dof_begin_ == dynamics.dof_begin && mass_begin_ == dynamics.mass_begin &&
          mass_.size() == dynamics.mass.size() &&

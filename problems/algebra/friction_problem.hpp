@@ -122,6 +122,9 @@ class KnownMasses {
   std::vector<double> mass_;
 };
 
+/// u = W r + q with three rows per contact, and nothing known of bodies.
+FrictionProblem local_problem(SparseRows&& w, Eigen::VectorXd q, std::vector<double> mu);
+
 /// The diagonal block of contact c in the stored W, as it is; entries beyond its rows are zero.
 Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c);
 

@@ -1,5 +1,6 @@
 #include "problems/algebra/islands.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 

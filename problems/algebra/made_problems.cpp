@@ -43,13 +43,9 @@ class Pile {
     add_contacts();
     for (double& entry : problem_.dynamics.mass) entry *= settings_.mass_unit;
     if (!settings_.is_stored) return std::move(problem_);
-    FrictionProblem stored;
-    stored.row_begin = problem_.row_begin;
-    stored.friction = problem_.friction;
-    stored.has_delassus = true;
-    stored.delassus.w = delassus_matrix(problem_);
-    free_contact_velocity(problem_, stored.delassus.q);
-    return stored;
+    Eigen::VectorXd q;
+    free_contact_velocity(problem_, q);
+    return local_problem(delassus_matrix(problem_), std::move(q), problem_.friction);
   }
 
  private:

@@ -47,8 +47,7 @@ bool is_captured(const std::filesystem::path& file);
 /// Throws Error: broken, or arrays that do not fit each other.
 CapturedProblem read_captured(const std::filesystem::path& file);
 
-/// Written beside and renamed. Throws Error; InvalidProblem for a problem without
-/// dynamics form.
+/// Written beside and renamed. Throws Error; InvalidProblem for a problem without dynamics form.
 void write_captured(const std::filesystem::path& file, const CapturedProblem& captured);
 
 }  // namespace ballast

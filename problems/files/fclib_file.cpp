@@ -79,17 +79,6 @@ std::vector<int> file_rows(const FrictionProblem& problem) {
 
 }  // namespace
 
-FrictionProblem local_problem(SparseRows w, Eigen::VectorXd q, std::vector<double> mu) {
-  FrictionProblem problem;
-  problem.friction = std::move(mu);
-  for (int c = 0; c < problem.contact_count(); ++c) problem.row_begin.push_back(3 * (c + 1));
-  problem.has_delassus = true;
-  problem.delassus.w.swap(w);
-  problem.delassus.w.makeCompressed();
-  problem.delassus.q = std::move(q);
-  return problem;
-}
-
 FrictionProblem divided(const GlobalProblem& global, const Division& division) {
   FrictionProblem problem;
   problem.friction = global.mu;
@@ -190,7 +179,7 @@ FrictionProblem condensed(const FrictionProblem& problem) {
     w.setFromTriplets(entries.begin(), entries.end());
     q = three_rows(problem, q);
   }
-  return local_problem(w, std::move(q), problem.friction);
+  return local_problem(std::move(w), std::move(q), problem.friction);
 }
 
 // The layout.

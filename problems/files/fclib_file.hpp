@@ -33,9 +33,6 @@ inline Eigen::VectorXd as_eigen(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
-/// u = W r + q with three rows per contact.
-FrictionProblem local_problem(SparseRows w, Eigen::VectorXd q, std::vector<double> mu);
-
 /// Keeps the dynamics form when the unknowns can be grouped into bodies of six, or of three, so
 /// that M is block diagonal and a contact touches at most two of them; one unknown may be left for
 /// a last body. Forms W otherwise. Throws InvalidProblem when M is not symmetric positive definite.

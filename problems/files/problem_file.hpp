@@ -12,9 +12,9 @@
 namespace ballast {
 
 /// Reads .hdf5/.h5 (FCLIB local or global, 3-D) or .dat (Siconos FrictionContact: dense, block or
-/// sparse). Throws Error. Global problems keep the dynamics form when M is block
-/// diagonal by bodies and a contact touches at most two of them; otherwise W is formed. What a run
-/// captured comes back in the form in which it was written.
+/// sparse). Throws Error. Global problems keep the dynamics form when M is block diagonal by bodies
+/// and a contact touches at most two of them; otherwise W is formed. What a run captured comes back
+/// in the form in which it was written.
 FrictionProblem read_problem(const std::filesystem::path& file);
 
 /// Siconos' text format of FrictionContactProblem and GlobalFrictionContactProblem: numbers

@@ -18,9 +18,8 @@ using Eigen::VectorXd;
 using Ipopt::Index;
 using Ipopt::Number;
 
-// Polar coordinates y: the normal entry stays, the tangential ones are d with x_T = mu x_N d, |d|
-// <=
-// 1. The cone is then a half-line times a disc, without the apex where no constraint has a
+// Polar coordinates y: the normal entry stays, the tangential ones are d with x_T = mu x_N d and
+// |d| <= 1. The cone is then a half-line times a disc, without the apex where no constraint has a
 // gradient. (Ipopt needs many times fewer steps, though 1/2 x.W x is no longer convex in y.)
 
 VectorXd from_polar(const ConeProgram& cones, const VectorXd& y) {

@@ -82,19 +82,12 @@ class Nlopt final : public Solver {
     answer.x = std::move(x);
     if (row.empty()) return;
     // The program of the contacts that are left, and what NLopt makes of it.
-    program.w = chosen(row);
+    program.w = chosen(cones_.w, row);
     program.q = request.q(row);
     VectorXd y = answer.x(row);
     answer.iterations = optimise(request, program, row, y);
     answer.finished = answer.iterations < std::min(most_evaluations, request.left.max_iterations);
     answer.x(row) = y;
-  }
-
-  /// Rows and columns `row` (ascending) of W.
-  SparseRows chosen(const std::vector<int>& row) const {
-    SparseRows pick(static_cast<Eigen::Index>(row.size()), cones_.row_count());
-    for (std::size_t i = 0; i < row.size(); ++i) pick.insert(static_cast<int>(i), row[i]) = 1.0;
-    return pick * cones_.w * SparseRows(pick.transpose());
   }
 
   /// Evaluations spent; `y` is the start and the answer.

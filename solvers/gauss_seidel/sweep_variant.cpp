@@ -3,18 +3,8 @@
 #include "problems/algebra/friction_cone.hpp"
 
 namespace ballast {
-namespace {
 
 using Vector = Eigen::Vector3d;
-
-void solve_exactly(const PrincipalContact& contact, const double* u, double* y, double& slip) {
-  y[0] -= u[0] * contact.inverse_normal;
-  y[1] -= u[1] * contact.inverse_s1;
-  y[2] -= u[2] * contact.inverse_s2;
-  apply_coulomb(contact, y[0], y[1], y[2], slip);
-}
-
-}  // namespace
 
 void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& contact,
                         double lambda_max, const double* u, double* y, double& slip) {
@@ -32,8 +22,9 @@ void resolve_by_variant(const SweepVariant& variant, const PrincipalContact& con
   if (variant.rule == LocalRule::projection) {
     after = project_cone(before - modified_velocity(velocity, contact.mu) / lambda_max, contact.mu);
   } else {
-    double exact[3] = {y[0], y[1], y[2]};
-    solve_exactly(contact, u, exact, slip);
+    double exact[3] = {y[0] - u[0] * contact.inverse_normal, y[1] - u[1] * contact.inverse_s1,
+                       y[2] - u[2] * contact.inverse_s2};
+    apply_coulomb(contact, exact[0], exact[1], exact[2], slip);
     after = impulse(exact);
   }
   // Beyond the solution, or short of it, and back onto the cone.

@@ -15,13 +15,11 @@ void ConeProgram::take(const FrictionProblem& problem) {
   friction = moving_.friction;
   row_begin.assign(1, 0);
   row_.clear();
-  std::vector<int> here(moving_.row_count(), -1);
   std::vector<double> scale;
   double largest_lambda = 0.0;
   for (int k = 0; k < moving_.contact_count(); ++k) {
     const int rows = friction[k] > 0.0 ? 3 : 1;
     for (int i = 0; i < rows; ++i) {
-      here[moving_.row_begin[k] + i] = static_cast<int>(row_.size());
       row_.push_back(moving_.row_begin[k] + i);
       scale.push_back(1.0 / std::sqrt(moving_.lambda_max[k]));
     }
@@ -37,15 +35,10 @@ void ConeProgram::take(const FrictionProblem& problem) {
   velocity_unit_ = unit_ * std::sqrt(largest_lambda);
 
   // W between the rows that are left, its blocks scaled on both sides.
-  std::vector<Eigen::Triplet<double>> entries;
+  w_as_is_ = chosen(moving_.w, row_);
   for (int i = 0; i < row_count(); ++i)
-    for (SparseRows::InnerIterator entry(moving_.w, row_[i]); entry; ++entry) {
-      const int j = here[entry.col()];
-      if (j < 0) continue;
-      entries.emplace_back(i, j, scale_[i] * scale_[j] * entry.value());
-    }
-  w_as_is_.resize(row_count(), row_count());
-  w_as_is_.setFromTriplets(entries.begin(), entries.end());
+    for (SparseRows::InnerIterator entry(w_as_is_, i); entry; ++entry)
+      entry.valueRef() *= scale_[i] * scale_[entry.col()];
   const SparseRows transposed = w_as_is_.transpose();
   w = 0.5 * (w_as_is_ + transposed);
   scale_ *= unit_;  // from here on: impulse = scale * x

@@ -18,12 +18,8 @@ void ContactOperator::prepare(const FrictionProblem& problem) {
 
 // H^T r as forces on the bodies, then two triangular solves with each body's own factor.
 void ContactOperator::push_bodies(const Impulses& r) {
-  const DynamicsForm& dynamics = problem_->dynamics;
-  contact_to_body_impulse(dynamics, problem_->row_begin, r, v_);
-  for (int b = 0; b < dynamics.body_count(); ++b) {
-    roots_[b].solve_lower(v_.data() + dynamics.dof_begin[b]);
-    roots_[b].solve_upper(v_.data() + dynamics.dof_begin[b]);
-  }
+  contact_to_body_impulse(problem_->dynamics, problem_->row_begin, r, v_);
+  solve_masses(problem_->dynamics, roots_, v_);
 }
 
 void ContactOperator::velocity(const Impulses& r, Eigen::VectorXd& u) {

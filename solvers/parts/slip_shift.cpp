@@ -21,7 +21,7 @@ void Anderson::step(Eigen::VectorXd& x, const Eigen::VectorXd& image) {
   // The residual is G(x) - x. Differences of successive images G(x) and of successive residuals are
   // kept in a ring of `memory` places.
   residual_ = image - x;
-  if (primed_ && memory_ > 0) {
+  if (primed_) {
     if (count_ == 0) next_ = 0;
     image_steps_[next_] = image - last_image_;
     residual_steps_[next_] = residual_ - last_residual_;
@@ -57,10 +57,10 @@ Eigen::VectorXd Anderson::combine() const {
   return scale.asDiagonal() * gram.ldlt().solve(right);
 }
 
-void SlipShift::reset(const ContactOperator& w, int memory) {
+void SlipShift::reset(const ContactOperator& w) {
   s_.setZero(w.contact_count());
   image_.resize(w.contact_count());
-  mixing_.reset(memory);
+  mixing_.reset(8);
   last_distance_ = std::numeric_limits<double>::infinity();
 }
 

@@ -42,8 +42,8 @@ class Anderson {
 /// s, one value [m/s] >= 0 per contact; 0 for contacts without friction.
 class SlipShift {
  public:
-  /// s = 0. `memory`: how many past steps Anderson mixing combines in improve().
-  void reset(const ContactOperator& w, int memory = 8);
+  /// s = 0.
+  void reset(const ContactOperator& w);
 
   double operator[](int c) const { return s_[c]; }
   /// u_c + s_c n: the gradient of the convex problem.

@@ -11,6 +11,12 @@
 
 namespace ballast {
 
+SparseRows chosen(const SparseRows& w, const std::vector<int>& row) {
+  SparseRows pick(static_cast<Eigen::Index>(row.size()), w.cols());
+  for (int i = 0; i < pick.rows(); ++i) pick.insert(i, row[i]) = 1.0;
+  return pick * w * SparseRows(pick.transpose());
+}
+
 void MovingContacts::take(const FrictionProblem& problem) {
   std::vector<Eigen::Matrix3d> diagonal;
   delassus_diagonal(problem, diagonal);
@@ -33,9 +39,7 @@ void MovingContacts::take(const FrictionProblem& problem) {
     row_begin.push_back(row_begin.back() + problem.contact_rows(c));
   }
   q = whole_q(row);
-  SparseRows kept(row_count(), problem_rows);
-  for (int i = 0; i < row_count(); ++i) kept.insert(i, row[i]) = 1.0;
-  w = kept * delassus_matrix(problem) * SparseRows(kept.transpose());
+  w = chosen(delassus_matrix(problem), row);
 }
 
 bool answer_apart(double max_seconds, const std::function<bool(RoundAnswer&)>& call,

@@ -9,6 +9,9 @@
 
 namespace ballast {
 
+/// The entries of w in these rows and these columns.
+SparseRows chosen(const SparseRows& w, const std::vector<int>& row);
+
 /// u = w r + q over the contacts kept, in the problem's order. The others (W_cc = 0: both bodies
 /// fixed) have any impulse for a solution; they get zero.
 struct MovingContacts {

@@ -88,8 +88,9 @@ struct Budget {
   /// Not null: solvers stop on this measure as well, wherever they evaluate the error. One object
   /// serves one solve.
   FclibStop* fclib = nullptr;
-  /// Not empty: told the iterations and the error [m/s] wherever it is evaluated; true ends the
-  /// solve as stalled. For who has something better to do with the rest of the budget.
+  /// Not empty: an Iteration (seam/iteration.hpp) tells it the iterations and the error [m/s] at
+  /// every look; true ends the solve as stalled. For who has something better to do with the rest
+  /// of the budget. A Course does not ask.
   std::function<bool(int iterations, double error)> gives_up = {};
 
   /// The natural map to plan for [m/s]: the tolerance, or where `fclib` expects its own to be

@@ -292,7 +292,7 @@ TEST_CASE("How a program ended is told with its last words") {
        {Ending{"sh -c 'echo first >&2; echo; echo last words >&2; echo >&2; exit 3'", "", 3,
                "last words"},
         {"sh -c 'kill -SEGV $$'", "", 128 + SIGSEGV, ""},
-        {"/no/such/program", "", 127, ""},
+        {"/no/such/program", "", 127, "sh: 1: /no/such/program: not found"},
         {"true", "/no/such/folder", 127, "cannot be started: No such file or directory"}}) {
     SupervisedProgram ended(command, {}, {.folder = folder});
     REQUIRE(ended.wait(10.0));

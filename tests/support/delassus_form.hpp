@@ -8,14 +8,7 @@ namespace ballast {
 /// u = W r + q with three rows per contact, and nothing known of bodies.
 inline FrictionProblem stored_problem(std::vector<double> friction, const Eigen::MatrixXd& w,
                                       const Eigen::VectorXd& q) {
-  FrictionProblem problem;
-  problem.has_delassus = true;
-  for (std::size_t c = 1; c <= friction.size(); ++c)
-    problem.row_begin.push_back(3 * static_cast<int>(c));
-  problem.friction = std::move(friction);
-  problem.delassus.w = w.sparseView();
-  problem.delassus.q = q;
-  return problem;
+  return local_problem(w.sparseView(), q, std::move(friction));
 }
 
 /// Adds the Delassus form to a problem that has only the dynamics form.

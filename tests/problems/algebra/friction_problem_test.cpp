@@ -7,6 +7,7 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/delassus_form.hpp"
 
 using namespace ballast;
@@ -17,12 +18,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string complaint(const FrictionProblem& problem) {
-  try {
-    problem.validate();
-  } catch (const InvalidProblem& error) {
-    return error.what();
-  }
-  return "";
+  return ballast::complaint<InvalidProblem>([&] { problem.validate(); });
 }
 
 struct Damage {

@@ -58,6 +58,10 @@ TEST_CASE("all of a captured problem comes back, bit by bit") {
   CHECK(back.problem.row_begin == captured.problem.row_begin);
   CHECK(back.problem.dynamics.h == captured.problem.dynamics.h);
   CHECK((back.step == 21 && back.phase == "loading" && back.load == 120.0));
+  CHECK((back.time == captured.time && back.wall_x == captured.wall_x &&
+         back.wall_v == captured.wall_v));
+  CHECK((back.solution == captured.solution && back.gap == captured.gap &&
+         back.frame == captured.frame && back.position == captured.position));
   CHECK((back.key == captured.key && back.start == captured.start));
   // Equal contents are equal bytes.
   write_captured(folder / "again.hdf5", back);

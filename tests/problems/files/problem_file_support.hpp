@@ -10,6 +10,7 @@
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/delassus_form.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -30,15 +31,7 @@ inline KnownSolution small(double frictionless = 0.0) {
 /// What reading the file complains of, behind its name, in one line.
 template <typename Read>
 std::string complaint(const fs::path& file, const Read& read) {
-  try {
-    read(file);
-  } catch (const Error& error) {
-    const std::string text = error.what();
-    CHECK(text.rfind(file.string() + ": ", 0) == 0);
-    CHECK(text.find('\n') == std::string::npos);
-    return text.substr(file.string().size() + 2);
-  }
-  return "";
+  return complaint_about(file, [&] { read(file); });
 }
 inline std::string complaint(const fs::path& file) { return complaint(file, read_problem); }
 

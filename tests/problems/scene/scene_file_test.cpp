@@ -6,6 +6,7 @@
 #include "geometry/shape/mesh_file.hpp"
 #include "platform/text.hpp"
 #include "tests/problems/scene/scene_texts.hpp"
+#include "tests/support/environment_guard.hpp"
 #include "tests/support/mesh_writer.hpp"
 
 using namespace ballast;
@@ -201,13 +202,22 @@ TEST_CASE(
       {std::string(5000, 'n'), "no scene of this name"}};
   for (const auto& [name, says] : wrongs)
     CHECK_THROWS_WITH(find_scene(name), Catch::Contains(says));
-  setenv("BALLAST_SCENES", folder.path().c_str(), 1);
+  const EnvironmentGuard mine("BALLAST_SCENES", folder.path().string());
   CHECK(find_scene("mine") == file);
   REQUIRE(list_scenes().size() == 1);
   CHECK(list_scenes()[0] == std::pair<std::string, std::string>("mine", "my own"));
-  setenv("BALLAST_SCENES", "/nowhere", 1);
+  const EnvironmentGuard none("BALLAST_SCENES", "/nowhere");
   CHECK_THROWS_WITH(list_scenes(), Catch::Contains("/nowhere: no such folder of scenes"));
-  unsetenv("BALLAST_SCENES");
+}
+
+TEST_CASE("a key that came later, given as it is by default, leaves a scene's text as it was") {
+  const auto text = [](const std::vector<std::string>& overrides) {
+    return resolve_scene(find_scene("incline"), overrides).text;
+  };
+  CHECK(text({"record.forces=false"}) == text({}));
+  for (const char* key : {"forces", "change_tolerance", "change_every"})
+    CHECK_THAT(text({}), !Catch::Contains(key));
+  CHECK_THAT(text({"record.forces=true"}), Catch::Contains("forces = true"));
 }
 
 TEST_CASE("an edited mesh makes another scene; its time stamp and comments do not") {

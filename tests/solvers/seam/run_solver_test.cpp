@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "problems/algebra/known_solutions.hpp"
-#include "solvers/backends/backends.hpp"
+#include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/unsolvable.hpp"
 
@@ -137,18 +137,20 @@ TEST_CASE("a backend that throws, or returns rubbish, has failed; one that decli
 }
 
 TEST_CASE("one runner and one solver serve a sequence of problems") {
-  const auto solver = make_gauss_seidel();
-  SolverRunner runner;
-  for (const int contacts : {30, 5, 60, 0, 30}) {
-    const FrictionProblem problem =
-        make_known_solution({.bodies = 60, .contacts = contacts, .friction_max = 0.5}).problem;
-    const SolverRun run = runner.run(*solver, problem, {}, {});
-    CHECK(run.is_solved());
-    const auto fresh = make_gauss_seidel();
-    CHECK(SolverRunner().run(*fresh, problem, {}, {}).solved.impulses ==
-          run.solved.impulses);  // nothing left over
-    CHECK(run.prepare_seconds >= 0.0);
-    CHECK(run.solve_seconds > 0.0);
+  for (const char* name : {"pgs", "nesterov_pgs", "nncg"}) {
+    CAPTURE(name);
+    const auto solver = make_solver(name);
+    SolverRunner runner;
+    for (const int contacts : {30, 5, 60, 0, 30}) {
+      const FrictionProblem problem =
+          make_known_solution({.bodies = 60, .contacts = contacts, .friction_max = 0.5}).problem;
+      const SolverRun run = runner.run(*solver, problem, {}, {});
+      CHECK(run.is_solved());
+      CHECK(SolverRunner().run(*make_solver(name), problem, {}, {}).solved.impulses ==
+            run.solved.impulses);  // nothing left over
+      CHECK(run.prepare_seconds >= 0.0);
+      CHECK(run.solve_seconds > 0.0);
+    }
   }
 }
 
