@@ -5,6 +5,7 @@
 #include <limits>
 #include <new>
 #include <ostream>
+#include <set>
 
 #include <CLI/CLI.hpp>
 
@@ -138,30 +139,30 @@ ExitCode carry_out(const Command& command) {
   return command.act();
 }
 
-/// The first word that is no command or option there, and what was probably meant; empty when all
-/// are known.
-std::string unknown_word(const CLI::App& program, int argc, const char* const* argv) {
+/// The first word that is no command or option there, and what was probably meant; where all are
+/// known, what the parser found. Then whose --help says more.
+std::string complaint(const CLI::App& program, int argc, const char* const* argv,
+                      const std::string& found) {
   const CLI::App* at = &program;
-  for (int k = 1; k < argc; ++k) {
+  std::string path = program.get_name(), unknown;
+  for (int k = 1; k < argc && unknown.empty(); ++k) {
     const std::string word = argv[k];
-    std::vector<std::string> names;
-    const auto is_known = [&](const std::string& name) {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    };
+    std::set<std::string> names;
     if (word.starts_with("--") && word.size() > 2) {
-      for (const CLI::Option* option : at->get_options()) names.push_back(option->get_name());
+      for (const CLI::Option* option : at->get_options()) names.insert(option->get_name());
       const std::string given = word.substr(0, word.find('='));
-      if (!is_known(given))
-        return at->get_name() + ": no option " + given + did_you_mean(given, names);
+      if (!names.contains(given)) unknown = ": no option " + given + did_you_mean(given, names);
     } else {
-      for (const CLI::App* below : at->get_subcommands({})) names.push_back(below->get_name());
-      if (is_known(word))
+      for (const CLI::App* below : at->get_subcommands({})) names.insert(below->get_name());
+      if (names.contains(word)) {
         at = at->get_subcommand(word);
-      else if (at->get_require_subcommand_min() > 0)
-        return at->get_name() + ": no command '" + word + "'" + did_you_mean(word, names);
+        path += ' ' + word;
+      } else if (at->get_require_subcommand_min() > 0) {
+        unknown = ": no command '" + word + "'" + did_you_mean(word, names);
+      }
     }
   }
-  return {};
+  return (unknown.empty() ? found : at->get_name() + unknown) + " (" + path + " --help)";
 }
 
 }  // namespace
@@ -205,8 +206,7 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error, out, err);  // --help
-    const std::string unknown = unknown_word(program, argc, argv);
-    print_failure(err, (unknown.empty() ? error.what() : unknown) + " (ballast --help)");
+    print_failure(err, complaint(program, argc, argv, error.what()));
     return static_cast<int>(ExitCode::usage);
   }
   // a full disk may show only when the last of the output is written

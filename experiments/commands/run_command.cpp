@@ -11,7 +11,6 @@
 #include "experiments/measure/run_data.hpp"
 #include "experiments/paper/sections.hpp"
 #include "experiments/plans/plan_runner.hpp"
-#include "experiments/run/capture.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/run_page/report.hpp"
@@ -69,7 +68,7 @@ void show_results(const RunEnd& end, const RunOptions& options, bool with_page) 
     std::cout << "  report.html   figures and the table of the run: open it in a browser\n";
   std::cout << "  steps.csv     every step's scalars\n"
             << "  record.h5     the same and the poses (HDF5)\n";
-  if (!options.capture.empty())
+  if (is_there(end.folder / "capture"))
     std::cout << "  capture/      friction problems of steps, for ballast compare\n";
   std::cout << "  manifest.json machine, commit, parameters, summary\n\nwhat next\n"
             << next_commands(end.has_grains) << std::flush;
@@ -106,12 +105,6 @@ ExitCode run_scene(RunRequest& request) {
     std::cerr << "ballast: " << request.run.scene
               << ": stopped before its end; --continue goes on with it" << std::endl;
   return code;
-}
-
-/// The same text. Throws std::invalid_argument where it says no steps.
-std::string which_steps(const std::string& text) {
-  if (!text.empty()) CaptureSettings::parse(text);
-  return text;
 }
 
 struct PlanRequest {
@@ -258,7 +251,7 @@ Command run_command() {
        {"--deposit-only", &run.deposit_only, "Only sees to it that the packing is in the cache"},
        {"--packing-cache DIR", &run.packing_cache,
         "Where deposited packings are kept (<output>/../packings)"},
-       {"--capture WHICH", into(run.capture, which_steps),
+       {"--capture WHICH", into(run.capture, CaptureSettings::parse),
         "Keeps the friction problems of steps as FCLIB files in <output>/capture: every=50 (two "
         "consecutive ones each; steps=3: three), from=1000,to=1020"},
        {"--threads N", &run.threads,

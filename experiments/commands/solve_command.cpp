@@ -28,8 +28,7 @@ namespace {
 
 struct SolveOptions {
   std::vector<std::string> files;
-  std::string solver;  ///< its name
-  MakeSolver make;
+  ComparedSolver solver;
   double tolerance = 1e-8;
   bool absolute = false;
   int max_iterations = 10000;
@@ -44,10 +43,10 @@ struct SolvedFile {
   int contacts = 0, rows = 0;
   double tolerance = 0.0;  ///< [m/s]
   SolverRun run = {};
-  /// Why nothing was solved, and what is wrong: "unreadable", "unsupported"; of a program
-  /// "out_of_time", "crashed". Empty: it was.
-  std::string refused = {}, why = {};
-  std::string words = {};  ///< what came of it (explained())
+  /// Why nothing was solved: "unreadable", "unsupported"; of a program "out_of_time", "crashed".
+  /// Empty: it was.
+  std::string refused = {};
+  std::string words = {};  ///< what came of it (explained()), or what is wrong
 };
 
 /// One number of the table: its heading (the command's help says what it means), its JSON name.
@@ -90,7 +89,7 @@ void keep_answer(const FrictionProblem& problem, const SolvedFile& solved,
       .r = solved.run.solved.impulses,
       .numbers = {{"tolerance", solved.tolerance}, {"iterations", solved.run.solved.iterations}},
       .texts = {{"problem", solved.file},
-                {"solver", options.solver},
+                {"solver", options.solver.name},
                 {"reason", name_of(solved.run.solved.reason)},
                 {"verdict", name_of(solved.run.verdict)}}};
   for (const ShownMeasure& m : measures_of(solved.run))
@@ -115,7 +114,7 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
     const double scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
     solved.tolerance *= scale;
   }
-  const auto solver = options.make();  // a new one for each: nothing is carried over
+  const auto solver = options.solver.make();  // a new one for each: nothing is carried over
   const Impulses start =
       options.start.empty() ? Impulses() : read_solution(answer_of(file, options.start), problem);
   solved.run = runner.run(*solver, problem, start,
@@ -130,7 +129,7 @@ SolvedFile solved_or_refused(const std::string& file, const SolveOptions& option
                              SolverRunner& runner) {
   const auto refused = [&](const char* how, std::string why) {
     if (why.find(file) == std::string::npos) why = file + ": " + why;
-    return SolvedFile{.file = file, .refused = how, .why = std::move(why)};
+    return SolvedFile{.file = file, .refused = how, .words = std::move(why)};
   };
   try {
     return solve_file(file, options, runner);
@@ -153,7 +152,7 @@ void print_heading(int width) {
 void print_row(const SolvedFile& s, int width) {
   const std::string name = std::filesystem::path(s.file).filename();
   if (!s.refused.empty()) {
-    std::cout << printed("%-*s%19s%s: ", width, name.c_str(), "", s.refused.c_str()) << s.why
+    std::cout << printed("%-*s%19s%s: ", width, name.c_str(), "", s.refused.c_str()) << s.words
               << std::endl;
     return;
   }
@@ -167,12 +166,12 @@ void print_row(const SolvedFile& s, int width) {
 nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options) {
   if (!s.refused.empty())
     return {{"file", s.file},
-            {"solver", options.solver},
+            {"solver", options.solver.name},
             {"reason", s.refused},
             {"success", false},
-            {"message", s.why}};
+            {"message", s.words}};
   nlohmann::ordered_json row{{"file", s.file},
-                             {"solver", options.solver},
+                             {"solver", options.solver.name},
                              {"contacts", s.contacts},
                              {"rows", s.rows},
                              {"tolerance", s.tolerance},
@@ -198,7 +197,7 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
     ++count;
     only_time = only_time && s.refused.empty() && s.run.solved.reason == StopReason::time_limit;
     add_to_list(failures,
-                s.refused.empty() ? s.file + " (" + s.words + ")" : s.why + " (" + s.refused + ")");
+                s.refused.empty() ? s.file + " (" + s.words + ")" : s.words + " (" + s.refused + ")");
   }
   if (count == 0) return ExitCode::ok;
   std::cerr << "ballast: " << count << " of " << solved.size()
@@ -206,26 +205,18 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
   return only_time ? ExitCode::time_limit : ExitCode::failure;
 }
 
-/// One of Ballast's. Throws UnknownSolver, MissingSolver.
-MakeSolver maker_of(const std::string& name) {
-  make_solver(name);
-  return [name] { return make_solver(name); };
+/// Throws std::invalid_argument unless it is one.
+ComparedSolver one_of(const std::vector<ComparedSolver>& solvers) {
+  if (solvers.size() != 1)
+    throw std::invalid_argument("expected one, there are " + std::to_string(solvers.size()));
+  return solvers.front();
 }
 
-void use_backend(SolveOptions& options, const std::string& name) {
-  options.make = maker_of(name);
-  options.solver = name;
-}
+ComparedSolver backend_of(const std::string& name) { return one_of(parse_solvers(name)); }
 
-/// A program; empty: none. Throws std::invalid_argument.
+/// A program instead of a backend; empty: none.
 void use_program(SolveOptions& options, const std::string& word) {
-  if (word.empty()) return;
-  const std::vector<ComparedSolver> programs = external_solvers({word}, {.memory_MB = 0.0});
-  if (programs.size() != 1)
-    throw std::invalid_argument("expected one program, there are " +
-                                std::to_string(programs.size()));
-  options.solver = programs[0].name;
-  options.make = programs[0].make;
+  if (!word.empty()) options.solver = one_of(external_solvers({word}, {.memory_MB = 0.0}));
 }
 
 ExitCode solve(const SolveOptions& options) {
@@ -255,7 +246,7 @@ ExitCode solve(const SolveOptions& options) {
 
 struct AnswerOptions {
   std::filesystem::path problem, answer;
-  MakeSolver make;
+  ComparedSolver solver;
   bool serves = false;
 };
 
@@ -295,7 +286,7 @@ ExitCode serve(const AnswerOptions& options) {
     try {
       const std::vector<std::string> files = split(line, '\t');
       if (files.size() != 2) throw std::invalid_argument("expected PROBLEM<tab>ANSWER");
-      answer_file(files[0], files[1], options.make);
+      answer_file(files[0], files[1], options.solver.make);
       std::cout << "done" << std::endl;
     } catch (const std::exception& error) {
       std::cout << "failed: " << error.what() << std::endl;
@@ -308,7 +299,7 @@ ExitCode answer(const AnswerOptions& options) {
   if (options.serves != options.problem.empty() || options.serves != options.answer.empty())
     throw UsageError("answer: expected PROBLEM and ANSWER, or --serve");
   if (options.serves) return serve(options);
-  answer_file(options.problem, options.answer, options.make);
+  answer_file(options.problem, options.answer, options.solver.make);
   return ExitCode::ok;
 }
 
@@ -319,9 +310,7 @@ Command solve_command() {
   return {"solve",
           "Solves stored problems and prints every measure of their errors",
           {{"files", &options->files, "Problems: FCLIB .hdf5, Siconos .dat", required},
-           {"--solver",
-            Parsed{"pgs", [options](const std::string& name) { use_backend(*options, name); }},
-            "As listed by ballast solvers"},
+           {"--solver", into(options->solver, backend_of, "pgs"), "As listed by ballast solvers"},
            {"--external NAME=COMMAND",
             Parsed{"", [options](const std::string& word) { use_program(*options, word); }},
             "Instead: a program that solves (docs/manual/external.md)", excludes("--solver")},
@@ -343,7 +332,7 @@ Command answer_command() {
           {{"problem", &options->problem, "The request's file"},
            {"answer", &options->answer, "The file to be written"},
            {"--serve", &options->serves, "Requests as lines PROBLEM<tab>ANSWER on standard input"},
-           {"--solver", into(options->make, maker_of, "auto"), "As listed by ballast solvers"}},
+           {"--solver", into(options->solver, backend_of, "auto"), "As listed by ballast solvers"}},
           [options] { return answer(*options); }};
 }
 

@@ -14,6 +14,8 @@ namespace ballast {
 
 CaptureSettings CaptureSettings::parse(std::string_view text) {
   CaptureSettings settings;
+  if (text.empty()) return settings;
+  settings.to = 1L << 60;
   bool has_range = false;
   const std::map<std::string, long*> places{{"every", &settings.every},
                                             {"steps", &settings.steps},

@@ -14,13 +14,14 @@
 namespace ballast {
 
 /// Which steps (counted from 1): of every `every` steps the first `steps`, between `from` and `to`.
+/// As made: none.
 struct CaptureSettings {
   long every = 0;  ///< 0: no group begins anew, all steps from `from` on are one
   long steps = 2;  ///< of each group
-  long from = 1, to = 1L << 60;
+  long from = 1, to = 0;
   long also = 0;  ///< one more step, wherever it is; 0: none
 
-  /// "every=50", "from=1000,to=1020", "every=100,steps=3,from=2000,also=10". Throws
+  /// "every=50", "from=1000,to=1020", "every=100,steps=3,from=2000,also=10"; nothing: none. Throws
   /// std::invalid_argument saying what is wrong.
   static CaptureSettings parse(std::string_view text);
   bool takes(long step) const;

@@ -7,7 +7,6 @@
 #include <sys/resource.h>
 
 #include "experiments/record/recorder.hpp"
-#include "experiments/run/capture.hpp"
 #include "platform/clock.hpp"
 #include "platform/interrupt.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -184,10 +183,7 @@ class Run {
   ExitCode step_on(Recorder& recorder) {
     TimeStepper stepper(run_.system, scene_, run_.driven_wall);
     Progress progress(options_.style);
-    std::optional<StepCapture> capture;
-    if (!options_.capture.empty())
-      capture.emplace(CaptureSettings::parse(options_.capture), folder_.capture(), scene_.step,
-                      scene_.gravity.norm());
+    StepCapture capture(options_.capture, folder_.capture(), scene_.step, scene_.gravity.norm());
     const RecordSpec& spec = scene_.record;
     const long pose_every = steps_between(spec.pose_rate, scene_.step),
                state_every = steps_between(spec.state_rate, scene_.step);
@@ -211,7 +207,7 @@ class Run {
       if (run_.control_volume)
         record.solid_fraction =
             run_.control_volume->solid_fraction(run_.system, run_.state, stepper.team());
-      if (capture) capture->observe(stepper, run_.state, record);
+      capture.observe(stepper, run_.state, record);
       record.seconds_other += watch.seconds();
 
       recorder.add_step(record);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/box/packing.hpp"
+#include "experiments/run/capture.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/error.hpp"
 
@@ -24,8 +25,8 @@ struct RunOptions {
   bool overwrite = false;  ///< replace a run found in the folder
   /// Only see to it that the packing is in the cache; the folder is not touched.
   bool deposit_only = false;
-  std::string capture;  ///< steps to keep as problem files (CaptureSettings::parse); empty: none
-  int threads = 1;      ///< of the solver; the results are the same whatever their number
+  CaptureSettings capture;  ///< steps to keep as problem files
+  int threads = 1;          ///< of the solver; the results are the same whatever their number
   /// The command that goes on with this run, for a shell in any folder; empty: none is told.
   std::string again;
   double max_seconds = 1e30;  ///< wall clock: checkpoint and exit code 3 after this

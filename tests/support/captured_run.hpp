@@ -14,7 +14,7 @@ inline std::filesystem::path captured_run(const std::filesystem::path& folder) {
   options.scene = "settled_rest";
   options.overrides = {"scene.duration=0.01"};
   options.output = folder;
-  options.capture = "every=5";
+  options.capture = CaptureSettings::parse("every=5");
   run(options);
   std::filesystem::path file;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "capture"))

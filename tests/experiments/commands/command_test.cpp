@@ -59,6 +59,8 @@ TEST_CASE("a command line that asks for nothing, or for what there isn't, is exi
   CHECK_THAT(said({}).err, Catch::StartsWith("ballast: A subcommand is required"));
   CHECK(said({"simulate"}).code == 2);
   CHECK_THAT(said({"simulate"}).err, Catch::EndsWith(" (ballast --help)\n"));
+  CHECK(said({"bench", "kernels", "--only"}).err ==
+        "ballast: kernels: no option --only (ballast bench kernels --help)\n");
 }
 
 namespace {

@@ -23,6 +23,7 @@ std::vector<long> taken(const char* text, long last) {
 }  // namespace
 
 TEST_CASE("Which steps are captured") {
+  CHECK(taken("", 160).empty());
   CHECK(taken("every=50", 160) == std::vector<long>{50, 51, 100, 101, 150, 151});
   CHECK(taken("every=50,steps=3,from=90", 160) == std::vector<long>{100, 101, 102, 150, 151, 152});
   CHECK(taken("from=7,to=9", 160) == std::vector<long>{7, 8, 9});
@@ -89,7 +90,7 @@ TEST_CASE("A run that is captured has the same bits") {
     return file_bytes(options.output / "checkpoint.bin");
   };
   const std::string plain = checkpoint_of("plain");
-  options.capture = "every=20";
+  options.capture = CaptureSettings::parse("every=20");
   CHECK((checkpoint_of("captured") == plain));
   const fs::path captured = folder.path() / "captured" / "capture";
   for (const char* name : {"step_0000020.hdf5", "step_0000021.hdf5"})
