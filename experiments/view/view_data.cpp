@@ -68,107 +68,58 @@ void add_curves(const RunData& run, ViewData& view) {
   }
 }
 
-ViewData view_of_state(MechanicalSystem system, const MotionState& state, std::string title) {
-  ViewData view;
-  view.title = std::move(title);
-  view.friction = system.friction;
-  view.driven_wall = system.first_driven_wall();
-  view.system = std::move(system);
-  view.frames = {{state.time, state.step, state.pose, state.velocity, state.spin}};
-  return view;
-}
-
-/// Where a contact point is, seen from the centre of mass of one of its bodies (`of_b`: the second)
-/// [m, world frame]. Zero where the problem does not tell: a body that does not turn, or a contact
-/// without friction, whose one row of H is too little.
-Vec3 lever_of(const CapturedProblem& captured, int contact, bool of_b) {
-  const auto c = static_cast<size_t>(contact);
-  const DynamicsForm& dynamics = captured.problem.dynamics;
-  const int rows = captured.problem.contact_rows(contact);
-  const int body = of_b ? dynamics.body_b[c] : dynamics.body_a[c];
-  if (rows != 3 || dynamics.body_dofs(body) != 6) return Vec3::Zero();
-  const double* block = dynamics.h.data() + dynamics.h_begin[c] +
-                        (of_b ? rows * dynamics.body_dofs(dynamics.body_a[c]) : 0);
-  // a row is +-(s x R^T d) for each direction d of the frame F, about the body's axes; with
-  // A = F^T rows, A A^T = |s|^2 I - s s^T in the world frame
-  const Eigen::Map<const Mat3> turning(block + 9);
-  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> frame(captured.frame.data() +
-                                                                             9 * c);
-  const Mat3 a = frame.transpose() * turning, gram = a * a.transpose();
-  const Mat3 square = 0.5 * gram.trace() * Mat3::Identity() - gram;
-  int largest = 0;
-  const double top = square.diagonal().maxCoeff(&largest);
-  if (!(top > 0.0)) return Vec3::Zero();
-  const Vec3 lever = square.col(largest) / std::sqrt(top);
-  // the centre of a convex body lies behind its contact's plane
-  const double outward = (of_b ? -1.0 : 1.0) * frame.row(0).dot(lever);
-  return outward < 0.0 ? Vec3(-lever) : lever;
-}
-
 /// What the contacts and the mass block of one body tell.
 struct KnownBody {
-  std::vector<Vec3> points, centres;  ///< contact points; the centre of mass by each that tells it
-  std::vector<Vec3> normals;          ///< out of the body
-  double mass = 0.0, radius = 0.0;    ///< [kg]; of the ball of the same mean inertia [m]
+  std::vector<Vec3> points, normals;  ///< of its contacts; out of the body
+  double mass = 0.0;                  ///< [kg]; 0: it does not turn
 
   bool is_plane() const {
-    return radius == 0.0 && std::all_of(normals.begin(), normals.end(), [&](const Vec3& normal) {
+    return mass == 0.0 && std::all_of(normals.begin(), normals.end(), [&](const Vec3& normal) {
              return normal.dot(normals.front()) > 1.0 - 1e-6;
            });
-  }
-  Vec3 centre() const {
-    const std::vector<Vec3>& places = centres.empty() ? points : centres;
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& place : places) sum += place;
-    return sum / static_cast<double>(places.size());
   }
 };
 
 std::map<int, KnownBody> known_bodies(const CapturedProblem& captured) {
   std::map<int, KnownBody> bodies;
+  const DynamicsForm& dynamics = captured.problem.dynamics;
   for (int c = 0; c < captured.problem.contact_count(); ++c)
     for (const bool is_b : {false, true}) {
       const auto k = static_cast<size_t>(c);
       KnownBody& known = bodies[is_b ? captured.id_b[k] : captured.id_a[k]];
-      const Vec3 point(captured.position.data() + 3 * k), normal(captured.frame.data() + 9 * k);
-      const DynamicsForm& dynamics = captured.problem.dynamics;
+      // a body turns when it has six unknowns
       const int body = is_b ? dynamics.body_b[k] : dynamics.body_a[k];
-      // a body turns when it has six unknowns; its mass block is principal, about the body's axes
-      if (dynamics.body_dofs(body) == 6) {
-        const double* mass = dynamics.mass.data() + dynamics.mass_begin[static_cast<size_t>(body)];
-        known.mass = mass[0];
-        // a ball has 2/5 m r^2 about each of its three axes
-        known.radius = std::sqrt(5.0 * (mass[21] + mass[28] + mass[35]) / (6.0 * mass[0]));
-      }
-      known.points.push_back(point);
+      if (dynamics.body_dofs(body) == 6)
+        known.mass = dynamics.mass[dynamics.mass_begin[static_cast<size_t>(body)]];
+      const Vec3 normal(captured.frame.data() + 9 * k);
+      known.points.emplace_back(captured.position.data() + 3 * k);
       known.normals.push_back(is_b ? Vec3(-normal) : normal);
-      if (const Vec3 lever = lever_of(captured, c, is_b); !lever.isZero())
-        known.centres.push_back(point - lever);
     }
   return bodies;
 }
 
+/// The hull of a body's contact points, and of a ball in their middle that keeps it from being flat.
 BodySpec hull_of(const KnownBody& known, int id) {
   BodySpec body;
   body.name = printed("body %d", id);
   body.mass = known.mass;
-  body.pose.position = known.centre();
-  double reach = 0.0;
   for (const Vec3& point : known.points)
-    reach = std::max(reach, (point - body.pose.position).norm());
-  // what does not turn has no inertia: a small ball keeps its hull from being flat
-  const double radius = known.radius > 0.0 ? 0.9 * known.radius : std::max(0.05 * reach, 1e-6);
-  const Polyhedron ball = make_sphere(radius, 0);
-  std::vector<Vec3> corners(ball.vertices().begin(), ball.vertices().end());
-  for (const Vec3& point : known.points) corners.push_back(point - body.pose.position);
+    body.pose.position += point / static_cast<double>(known.points.size());
+  double reach = 1e-6;
+  std::vector<Vec3> corners;
+  for (const Vec3& point : known.points) {
+    corners.push_back(point - body.pose.position);
+    reach = std::max(reach, corners.back().norm());
+  }
+  const Polyhedron ball = make_sphere(0.5 * reach, 0);
+  corners.insert(corners.end(), ball.vertices().begin(), ball.vertices().end());
   body.shape = std::make_shared<const Polyhedron>(convex_hull(corners));
   return body;
 }
 
-/// The bodies of a captured problem without the run that it is from. Bodies that turn have their
-/// centre of mass, a ball of their mass and inertia, and the hull of that ball and their contact
-/// points. What does not turn is a wall where all its contacts have one normal, else a hull too.
-/// `contacts`: the problem's own; the view has them by its own bodies.
+/// The bodies of a captured problem without the run that it is from: hulls, as far as its contacts
+/// tell. What does not turn is a wall where all its contacts have one normal. `contacts`: the
+/// problem's own; the view has them by its own bodies.
 ViewData bodies_of_problem(const CapturedProblem& captured, std::vector<FrameContact> contacts) {
   const std::map<int, KnownBody> bodies = known_bodies(captured);
   ViewData view;
@@ -187,8 +138,9 @@ ViewData bodies_of_problem(const CapturedProblem& captured, std::vector<FrameCon
         wall.offset = wall.normal.dot(known.points.front());
         add_wall(view.system, state, wall);
       } else {
-        const double volume = 4.0 / 3.0 * M_PI * std::pow(known.radius, 3);
-        add_body(view.system, state, hull_of(known, id), volume);
+        const BodySpec body = hull_of(known, id);
+        const double volume = 4.0 / 3.0 * M_PI * std::pow(body.shape->circumradius(), 3);
+        add_body(view.system, state, body, volume);
       }
     }
   for (FrameContact& contact : contacts) {
@@ -196,8 +148,10 @@ ViewData bodies_of_problem(const CapturedProblem& captured, std::vector<FrameCon
     contact.body_b = place.at(contact.body_b);
   }
   const std::vector<double>& friction = captured.problem.friction;
-  if (!friction.empty()) view.friction = *std::max_element(friction.begin(), friction.end());
-  view.frames = {{captured.time, captured.step, state.pose, state.velocity, state.spin}};
+  if (!friction.empty()) view.system.friction = std::ranges::max(friction);
+  state.time = captured.time;
+  state.step = captured.step;
+  view.frames = {state};
   view.contacts = [contacts](size_t) { return contacts; };
   return view;
 }
@@ -247,7 +201,6 @@ std::optional<ViewData> view_in_run(const fs::path& folder, const CapturedProble
   ViewData view;
   MotionState state;
   view.system = recorded_system(folder, state);
-  view.friction = view.system.friction;
   const std::vector<MotionState> frames = read_poses(folder);
   for (const std::vector<int>* ids : {&captured.id_a, &captured.id_b})
     for (const int id : *ids)
@@ -280,43 +233,43 @@ std::optional<ViewData> view_of_run(const RunData& run) {
       view.contacts = [forces](size_t frame) { return forces->of_frame(frame); };
   }
   if (run.scene) view.title = run.scene->title;
-  view.friction = view.system.friction;
   view.driven_wall = driven_wall_of(run, view.system);
   add_curves(run, view);
   return view;
 }
 
 ViewData view_of_scene(const Scene& scene, const fs::path& packing_cache) {
+  ViewData view;
   MotionState state;
-  const std::string title = scene.title.empty() ? scene.name : scene.title;
+  view.title = scene.title.empty() ? scene.name : scene.title;
   if (!scene.grains) {
-    MechanicalSystem system = make_system(scene, state);
-    return view_of_state(std::move(system), state, title);
+    view.system = make_system(scene, state);
+  } else {
+    const Rain rain = make_rain(scene);
+    const std::string key = packing_key(scene);
+    Packing packing;
+    const bool is_packed = read_packing(packing_file(packing_cache, key), key, packing);
+    view.system = is_packed ? drive_system(scene, rain, packing, state)
+                            : box_system(scene, rain, BoxStage::rain, rain.height, &state);
+    view.title += is_packed ? ": the packing" : ": the rain before the deposit";
   }
-  const Rain rain = make_rain(scene);
-  const std::string key = packing_key(scene);
-  Packing packing;
-  const bool is_packed = read_packing(packing_file(packing_cache, key), key, packing);
-  MechanicalSystem system = is_packed
-                                ? drive_system(scene, rain, packing, state)
-                                : box_system(scene, rain, BoxStage::rain, rain.height, &state);
-  return view_of_state(std::move(system), state,
-                       title + (is_packed ? ": the packing" : ": the rain before the deposit"));
+  view.driven_wall = view.system.first_driven_wall();
+  view.frames = {state};
+  return view;
 }
 
 ViewData view_of_mesh(const fs::path& file) {
   constexpr double stone = 2700.0;  // density of a mesh that says none [kg/m^3]
   const PrincipalShape grain = to_principal_frame(read_mesh(file));
-  Scene scene;
   BodySpec body;
   body.name = file.stem().string();
   body.shape = std::make_shared<const Polyhedron>(grain.shape);
   body.mass = stone * grain.volume;
   body.inertia = stone * grain.inertia;
+  Scene scene;
+  scene.title = file.filename().string();
   scene.bodies = {body};
-  MotionState state;
-  MechanicalSystem system = make_system(scene, state);
-  return view_of_state(std::move(system), state, file.filename().string());
+  return view_of_scene(scene, {});
 }
 
 ViewData view_of_problem(const fs::path& file, const ErrorQuestion& question) {

@@ -44,7 +44,6 @@ struct ViewData {
   /// Those with a force of a frame, by its number; empty: none are known. A run's are read when
   /// they are asked for.
   std::function<std::vector<FrameContact>(size_t frame)> contacts;
-  double friction = 0.0;
   int driven_wall = -1;  ///< moves as the series "x" says, outward [mm]; -1: none
   std::vector<double> series_time;
   std::vector<ViewSeries> series;
@@ -80,8 +79,8 @@ struct ErrorQuestion {
 /// The bodies of a captured problem with its contacts and forces, and the judge's error of every
 /// contact under each backend and budget, over the problem's velocity scale. The bodies are those
 /// of the run whose capture/ holds the file, at the stored frame nearest to the problem's time;
-/// where no run is around the file, what the problem knows of them. Throws
-/// UnknownSolver, MissingSolver, UnsupportedProblem, Error.
+/// where no run is around the file, hulls of their contact points. Throws UnknownSolver,
+/// MissingSolver, UnsupportedProblem, Error.
 ViewData view_of_problem(const std::filesystem::path& file, const ErrorQuestion& question);
 
 }  // namespace ballast

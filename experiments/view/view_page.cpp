@@ -211,7 +211,7 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
             static_cast<std::uint8_t>(128 + std::lround(127.0 * std::clamp(place[i], -1.0, 1.0))));
       const float force = contact.force.dot(contact.normal);
       const double tangential = (contact.force - force * contact.normal).norm();
-      const double bound = view.friction * static_cast<double>(force);
+      const double bound = view.system.friction * static_cast<double>(force);
       normal_forces.push_back(force);
       mobilised.push_back(static_cast<std::uint8_t>(
           bound > 0.0 ? std::lround(255.0 * std::min(tangential / bound, 1.0)) : 0));
