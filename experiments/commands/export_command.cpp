@@ -46,35 +46,21 @@ std::optional<std::pair<size_t, size_t>> parsed_frames(const std::string& word) 
   return std::pair(static_cast<size_t>(*first), static_cast<size_t>(*last));
 }
 
-std::vector<MotionState> frames_of(const fs::path& folder) {
-  std::vector<MotionState> frames = read_poses(folder);
-  if (frames.empty()) throw Error(folder.string() + ": no poses are stored there");
-  return frames;
-}
-
 ViewData run_view(const fs::path& folder) {
   std::optional<ViewData> view = view_of_run(read_run_data(folder));
   if (!view) throw Error(folder.string() + ": no poses are stored there");
   return std::move(*view);
 }
 
-void require_bodies(const ExportOptions& options, const MechanicalSystem& system, size_t bodies) {
-  if (bodies != system.bodies.size())
-    throw Error(options.source.string() + ": holds " + std::to_string(bodies) +
-                " bodies, the scene beside it " + std::to_string(system.bodies.size()));
-}
-
 /// Every stored frame as a file of its own.
-ExitCode export_all(const ExportOptions& options, const MechanicalSystem& system) {
-  const std::vector<MotionState> states = frames_of(options.source);
-  require_bodies(options, system, states.front().pose.size());
-  std::optional<RecordForces> forces;
-  if (const auto record = options.source / "record.h5"; is_there(record)) forces.emplace(record);
-  export_series(system, states, forces ? &*forces : nullptr, options.output);
-  std::cout << series_file(options.output, states.front().step).string() << " to "
-            << series_file(options.output, states.back().step).filename().string() << ": "
-            << states.size() << " states from " << states.front().time << " s to "
-            << states.back().time << " s\n";
+ExitCode export_all(const ExportOptions& options) {
+  const ViewData view = run_view(options.source);
+  export_series(view.system, view.frames, view.contacts, options.output);
+  const MotionState &first = view.frames.front(), &last = view.frames.back();
+  std::cout << series_file(options.output, first.step).string() << " to "
+            << series_file(options.output, last.step).filename().string() << ": "
+            << view.frames.size() << " states from " << first.time << " s to " << last.time
+            << " s\n";
   return ExitCode::ok;
 }
 
@@ -107,15 +93,21 @@ ExitCode export_run(const ExportOptions& options) {
   const bool has_time = !std::isnan(options.time);
   if (!from_folder && (has_time || options.all))
     throw Error(options.source.string() + ": a checkpoint is one state: give the run's folder");
-  const fs::path folder = from_folder ? options.source : fs::absolute(options.source).parent_path();
+  if (options.all) return export_all(options);
+  MechanicalSystem system;
   MotionState state;
-  const MechanicalSystem system = recorded_system(folder, state);
-  if (options.all) return export_all(options, system);
-  if (!from_folder)
-    state = read_checkpoint(options.source).state;
-  else if (has_time)
-    state = frames_of(folder)[nearest_frame(frames_of(folder), options.time)];
-  require_bodies(options, system, state.pose.size());
+  if (has_time) {
+    ViewData view = run_view(options.source);
+    state = view.frames[nearest_frame(view.frames, options.time)];
+    system = std::move(view.system);
+  } else {
+    system = recorded_system(
+        from_folder ? options.source : fs::absolute(options.source).parent_path(), state);
+    if (!from_folder) state = read_checkpoint(options.source).state;
+  }
+  if (state.pose.size() != system.bodies.size())
+    throw Error(options.source.string() + ": holds " + std::to_string(state.pose.size()) +
+                " bodies, the scene beside it " + std::to_string(system.bodies.size()));
   export_state(system, state, options.output);
   std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step
             << '\n';

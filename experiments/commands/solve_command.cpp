@@ -196,8 +196,8 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
     if (s.run.is_solved()) continue;
     ++count;
     only_time = only_time && s.refused.empty() && s.run.solved.reason == StopReason::time_limit;
-    add_to_list(failures,
-                s.refused.empty() ? s.file + " (" + s.words + ")" : s.words + " (" + s.refused + ")");
+    add_to_list(failures, s.refused.empty() ? s.file + " (" + s.words + ")"
+                                            : s.words + " (" + s.refused + ")");
   }
   if (count == 0) return ExitCode::ok;
   std::cerr << "ballast: " << count << " of " << solved.size()

@@ -169,16 +169,17 @@ fs::path series_file(const fs::path& file, long step) {
 }
 
 void export_series(const MechanicalSystem& system, std::span<const MotionState> states,
-                   const RecordForces* forces, const fs::path& file) {
+                   const std::function<std::vector<FrameContact>(size_t)>& contacts_of,
+                   const fs::path& file) {
   if (file.has_parent_path()) create_folder(file.parent_path());
   for (const MotionState& state : states)
     export_state(system, state, series_file(file, state.step));
   if (file.extension() != ".vtp") return;
   write_pvd(file, states);
-  if (!forces || forces->frame_count() != states.size()) return;
+  if (!contacts_of) return;
   const fs::path contacts = file.parent_path() / (file.stem().string() + "_contacts.vtp");
   for (size_t k = 0; k < states.size(); ++k)
-    write_contacts_vtp(forces->of_frame(k), states[k].time, series_file(contacts, states[k].step));
+    write_contacts_vtp(contacts_of(k), states[k].time, series_file(contacts, states[k].step));
   write_pvd(contacts, states);
 }
 

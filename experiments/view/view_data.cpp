@@ -98,7 +98,8 @@ std::map<int, KnownBody> known_bodies(const CapturedProblem& captured) {
   return bodies;
 }
 
-/// The hull of a body's contact points, and of a ball in their middle that keeps it from being flat.
+/// The hull of a body's contact points, and of a ball in their middle that keeps it from being
+/// flat.
 BodySpec hull_of(const KnownBody& known, int id) {
   BodySpec body;
   body.name = printed("body %d", id);

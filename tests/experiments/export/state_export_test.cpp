@@ -182,7 +182,8 @@ TEST_CASE("a series: files for ParaView with their times, and the contacts of a 
   recorder.finish("", "");
   const RecordForces forces(folder.path() / "record.h5");
   const fs::path series = folder.path() / "series";
-  export_series(system, states, &forces, series / "grains.vtp");
+  export_series(
+      system, states, [&](size_t k) { return forces.of_frame(k); }, series / "grains.vtp");
   for (const MotionState& state : states) {
     const fs::path alone = folder.path() / "alone.vtp";
     export_state(system, state, alone);
@@ -209,7 +210,7 @@ TEST_CASE("a series: files for ParaView with their times, and the contacts of a 
     }
   }
 
-  export_series(system, states, nullptr, series / "state.obj");
+  export_series(system, states, {}, series / "state.obj");
   CHECK(fs::exists(series / "state_00000050.obj"));
   CHECK_FALSE(fs::exists(series / "state.pvd"));
 }
