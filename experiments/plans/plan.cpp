@@ -1,5 +1,6 @@
 #include "experiments/plans/plan.hpp"
 
+#include <functional>
 #include <set>
 
 #include <fnmatch.h>
@@ -13,32 +14,6 @@
 namespace ballast {
 
 namespace fs = std::filesystem;
-namespace {
-
-void check_name(const std::string& name, const std::string& what, const std::string& origin) {
-  if (!is_plain(name, "_-.=") || name[0] == '.' || name[0] == '-')
-    throw SceneFileError(origin + ": " + what + " = \"" + name +
-                         "\": expected letters, digits, _, -, . and =");
-}
-
-/// Names that can be names, each once, and runs that are valid scenes, which are read.
-void validate(Plan& plan, const std::string& origin) {
-  check_name(plan.name, "name", origin);
-  std::set<std::string> names;
-  for (PlannedRun& run : plan.runs) {
-    check_name(run.name, "run.name", origin);
-    if (!names.insert(run.name).second)
-      throw SceneFileError(origin + ": run.name = \"" + run.name +
-                           "\": stands twice, expected another name for each run");
-    try {
-      run = planned_run(run.name, run.scene, run.overrides);
-    } catch (const SceneFileError& error) {
-      throw SceneFileError(origin + ": run " + run.name + ": " + error.what());
-    }
-  }
-}
-
-}  // namespace
 
 PlannedRun planned_run(const std::string& name, const std::string& text,
                        const std::vector<std::string>& overrides) {
@@ -89,19 +64,14 @@ namespace {
 constexpr size_t most_runs = 10'000;
 constexpr size_t most_text = 32 << 20;  // bytes of all names and overrides
 
-/// What plan, run and grid may say of the scene; the inner one adds to the outer one.
-struct Base {
-  std::string scene;
-  std::vector<std::string> set;
-};
-
-Base read_base(TomlTable& table, const fs::path& file, Base base) {
+/// What plan, run and grid may say of the scene, as a run; the inner one adds to the outer one.
+PlannedRun read_base(TomlTable& table, const fs::path& file, PlannedRun base) {
   // a scene's file is looked for where the plan is; a name stays one
   const fs::path scene = table.text("scene", "");
   const bool is_path = scene.has_parent_path() || scene.extension() == ".toml";
   if (!scene.empty())
     base.scene = (is_path ? (file.parent_path() / scene).lexically_normal() : scene).string();
-  for (std::string& text : table.texts("set")) base.set.push_back(std::move(text));
+  for (std::string& text : table.texts("set")) base.overrides.push_back(std::move(text));
   return base;
 }
 
@@ -111,31 +81,26 @@ struct Axis {
   std::vector<std::string> values;
 };
 
-std::vector<std::string> value_texts(const toml::node& node) {
-  std::vector<std::string> texts;
-  if (const toml::array* array = node.as_array())
-    for (const toml::node& value : *array) texts.push_back(toml_value_text(value));
-  else
-    texts.push_back(toml_value_text(node));
-  return texts;
-}
-
 /// "drive.frequency" = [...] and drive.frequency = [...] mean the same.
 void collect_axes(const toml::table& table, const std::string& prefix, std::vector<Axis>& axes) {
   for (const auto& [key, node] : table) {
     const std::string name = prefix + std::string(key.str());
-    if (const toml::table* inner = node.as_table())
+    if (const toml::table* inner = node.as_table()) {
       collect_axes(*inner, name + '.', axes);
+      continue;
+    }
+    Axis& axis = axes.emplace_back(Axis{name, {}});
+    if (const toml::array* array = node.as_array())
+      for (const toml::node& value : *array) axis.values.push_back(toml_value_text(value));
     else
-      axes.push_back({name, value_texts(node)});
+      axis.values.push_back(toml_value_text(node));
   }
 }
 
-/// The axes of a sub-table that need not be there.
-std::vector<Axis> read_axes(const toml::table& table, const char* key) {
+/// The axes of a sub-table that need not be there; its keys are the scene's, none of ours.
+std::vector<Axis> read_axes(TomlTable& table, const char* key) {
   std::vector<Axis> axes;
-  if (const toml::node* node = table.get(key))
-    if (const toml::table* inner = node->as_table()) collect_axes(*inner, "", axes);
+  collect_axes(table.section(key).as_it_stands(), "", axes);
   return axes;
 }
 
@@ -155,15 +120,13 @@ struct Where {
 };
 
 struct Grid {
-  std::string name;
-  Base base;
+  PlannedRun base;
   std::vector<Axis> axes;
   std::vector<Where> where;
 };
 
-Where read_where(TomlTable& table, const toml::table& raw, const std::vector<Axis>& axes) {
-  Where where{read_axes(raw, "when"), table.texts("set")};
-  table.section("when");  // known; its keys are those of the axes, not a table's of ours
+Where read_where(TomlTable& table, const std::vector<Axis>& axes) {
+  Where where{read_axes(table, "when"), table.texts("set")};
   if (where.when.empty())
     table.fail("when", "no condition, expected when = { \"a varied key\" = its values }");
   // A condition that no member can meet is a slip of the pen.
@@ -179,23 +142,18 @@ Where read_where(TomlTable& table, const toml::table& raw, const std::vector<Axi
 }
 
 /// A grid's axes, and for which members something else is set besides.
-Grid read_grid(TomlTable& table, const toml::table& raw, const fs::path& file, const Base& base) {
+Grid read_grid(TomlTable& table, const fs::path& file, const PlannedRun& base) {
   Grid grid;
-  grid.name = table.text("name");
+  const std::string name = table.text("name");
   grid.base = read_base(table, file, base);
-  table.section("vary");
-  grid.axes = read_axes(raw, "vary");
+  grid.base.name = name;
+  grid.axes = read_axes(table, "vary");
   if (grid.axes.empty())
     table.fail("vary", "nothing varied, expected vary.\"dotted.key\" = [values]");
-  size_t count = 1;
-  for (const Axis& axis : grid.axes) {
+  for (const Axis& axis : grid.axes)
     if (axis.values.empty()) table.fail("vary", axis.key + " has no values");
-    count *= axis.values.size();
-    if (count > most_runs) table.fail("vary", "more than " + std::to_string(most_runs) + " runs");
-  }
-  std::vector<TomlTable> conditions = table.sections("where");
-  for (size_t k = 0; k < conditions.size(); ++k)
-    grid.where.push_back(read_where(conditions[k], *raw["where"][k].as_table(), grid.axes));
+  for (TomlTable& condition : table.sections("where"))
+    grid.where.push_back(read_where(condition, grid.axes));
   table.finish();
   return grid;
 }
@@ -211,7 +169,7 @@ std::string name_part(const std::string& value) {
 
 /// The run at chosen[a] of each axis a. What `where` sets comes last: it overrides the rest.
 PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
-  PlannedRun run{.name = grid.name, .scene = grid.base.scene, .overrides = grid.base.set};
+  PlannedRun run = grid.base;
   const auto value_of = [&](const std::string& key) {
     size_t a = 0;
     while (grid.axes[a].key != key) ++a;
@@ -231,30 +189,36 @@ PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
   return run;
 }
 
-/// Runs are few and small enough, before any of them is looked at closer.
-void check_size(const std::vector<PlannedRun>& runs, const fs::path& file) {
-  size_t text = 0;
-  for (const PlannedRun& run : runs) {
-    text += run.name.size() + run.scene.size();
-    for (const std::string& set : run.overrides) text += set.size();
-  }
-  const auto fail = [&](const std::string& what) {
-    throw SceneFileError(file.string() + ": more than " + what +
-                         ": expected several smaller plans");
-  };
-  if (text > most_text) fail(std::to_string(most_text >> 20) + " MB of names and overrides");
-  if (runs.size() > most_runs) fail(std::to_string(most_runs) + " runs");
-}
-
 /// All members, the last key changing fastest: counts like an odometer.
-void expand(const Grid& grid, const fs::path& file, std::vector<PlannedRun>& runs) {
+void expand(const Grid& grid, const std::function<void(PlannedRun)>& add) {
   std::vector<size_t> chosen(grid.axes.size(), 0);
   for (;;) {
-    runs.push_back(member(grid, chosen));
-    if (runs.size() % 256 == 0) check_size(runs, file);
+    add(member(grid, chosen));
     size_t a = chosen.size();
     while (a > 0 && ++chosen[a - 1] == grid.axes[a - 1].values.size()) chosen[--a] = 0;
     if (a == 0) return;
+  }
+}
+
+/// Names that can be names, each once, and runs that are valid scenes, which are read.
+void validate(Plan& plan, const std::string& origin) {
+  const auto check_name = [&](const std::string& what, const std::string& name) {
+    if (!is_plain(name, "_-.=") || name[0] == '.' || name[0] == '-')
+      throw SceneFileError(origin + ": " + what + " = \"" + name +
+                           "\": expected letters, digits, _, -, . and =");
+  };
+  check_name("name", plan.name);
+  std::set<std::string> names;
+  for (PlannedRun& run : plan.runs) {
+    check_name("run.name", run.name);
+    if (!names.insert(run.name).second)
+      throw SceneFileError(origin + ": run.name = \"" + run.name +
+                           "\": stands twice, expected another name for each run");
+    try {
+      run = planned_run(run.name, run.scene, run.overrides);
+    } catch (const SceneFileError& error) {
+      throw SceneFileError(origin + ": run " + run.name + ": " + error.what());
+    }
   }
 }
 
@@ -266,27 +230,39 @@ Plan read_plan(const fs::path& file) {
   TomlTable root(file.string(), raw, resolved);
   Plan plan;
   plan.name = root.text("name", file.stem().string());
-  const Base base = read_base(root, file, {});
+  const PlannedRun base = read_base(root, file, {});
   std::vector<TomlTable> runs = root.sections("run");
   std::vector<TomlTable> grids = root.sections("grid");
   root.finish();
+  // Runs are few and small enough, before any of them is looked at closer.
+  size_t text = 0;
+  const auto add = [&](PlannedRun run) {
+    text += run.name.size() + run.scene.size();
+    for (const std::string& set : run.overrides) text += set.size();
+    if (text > most_text || plan.runs.size() == most_runs)
+      throw SceneFileError(file.string() + ": more than " +
+                           (text > most_text
+                                ? std::to_string(most_text >> 20) + " MB of names and overrides"
+                                : std::to_string(most_runs) + " runs") +
+                           ": expected several smaller plans");
+    plan.runs.push_back(std::move(run));
+  };
   // Single runs as they stand, then the members of each grid.
   for (TomlTable& table : runs) {
     const std::string name = table.text("name");
-    Base own = read_base(table, file, base);
-    if (own.scene.empty()) table.text("scene");  // says that it is missing
+    PlannedRun run = read_base(table, file, base);
+    if (run.scene.empty()) table.text("scene");  // says that it is missing
     table.finish();
-    plan.runs.push_back(
-        {.name = name, .scene = std::move(own.scene), .overrides = std::move(own.set)});
+    run.name = name;
+    add(std::move(run));
   }
-  for (size_t k = 0; k < grids.size(); ++k) {
-    const Grid grid = read_grid(grids[k], *raw["grid"][k].as_table(), file, base);
-    if (grid.base.scene.empty()) grids[k].text("scene");
-    expand(grid, file, plan.runs);
+  for (TomlTable& table : grids) {
+    const Grid grid = read_grid(table, file, base);
+    if (grid.base.scene.empty()) table.text("scene");
+    expand(grid, add);
   }
   if (plan.runs.empty())
     throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[grid]]");
-  check_size(plan.runs, file);
   validate(plan, file.string());
   return plan;
 }

@@ -84,6 +84,8 @@ class TomlTable {
   TomlTable(std::string file, const toml::table& table, toml::table& resolved,
             std::string path = "");
   bool has(std::string_view key) const { return table_->contains(key); }
+  /// As it stands in the file: for keys that are the user's.
+  const toml::table& as_it_stands() const { return *table_; }
 
   /// What is kept in `place` stays when the key is absent. Throws SceneFileError: missing, of
   /// another type, out of range; with what was expected.
