@@ -108,22 +108,27 @@ double work_done(const std::vector<Task>& tasks) {
   return done;
 }
 
+namespace {
+
+long count(const std::vector<Task>& tasks, bool is_run, TaskState state) {
+  return std::ranges::count_if(
+      tasks, [&](const Task& task) { return task.is_run() == is_run && task.state == state; });
+}
+
+}  // namespace
+
 std::string plan_progress(const std::vector<Task>& tasks, double work_before, double seconds) {
-  const auto count = [&](bool is_run, TaskState state) {
-    return std::ranges::count_if(
-        tasks, [&](const Task& task) { return task.is_run() == is_run && task.state == state; });
-  };
   double all = 0.0;
   for (const Task& task : tasks) all += task.work;
   // What is left takes as long as what was done since the beginning, in proportion to the work.
   const double done = work_done(tasks), gained = done - work_before;
-  std::string text =
-      printed("%3.0f %%  %td of %td runs, %td running",
-              all > 0.0 ? std::floor(100.0 * done / all) : 100.0, count(true, TaskState::finished),
-              std::ranges::count_if(tasks, &Task::is_run), count(true, TaskState::running));
-  if (const auto deposits = count(false, TaskState::running); deposits > 0)
+  std::string text = printed(
+      "%3.0f %%  %ld of %ld runs, %ld running", all > 0.0 ? std::floor(100.0 * done / all) : 100.0,
+      count(tasks, true, TaskState::finished), std::ranges::count_if(tasks, &Task::is_run),
+      count(tasks, true, TaskState::running));
+  if (const long deposits = count(tasks, false, TaskState::running); deposits > 0)
     text += ", " + std::to_string(deposits) + " depositing";
-  if (const auto failed = count(true, TaskState::failed); failed > 0)
+  if (const long failed = count(tasks, true, TaskState::failed); failed > 0)
     text += ", " + std::to_string(failed) + " FAILED";
   if (gained > 0.0) text += "  " + duration_text(seconds * (all - done) / gained) + " left";
   return text;
@@ -165,8 +170,8 @@ std::vector<Task> make_tasks(const fs::path& results, std::vector<PlannedRun> ru
 
 namespace {
 
-/// Starts tasks in their order while processes are free, and looks at them two hundred times a
-/// second.
+/// Starts tasks in their order while processes are free, looks at them two hundred times a second,
+/// and says what came out.
 class Engine {
  public:
   Engine(const Plan& plan, const PlanOptions& options, std::vector<Task> tasks)
@@ -174,14 +179,13 @@ class Engine {
         options_(options),
         program_(own_program()),
         tasks_(std::move(tasks)),
+        finished_before_(count(tasks_, true, TaskState::finished)),
         work_before_(work_done(tasks_)),
         line_(options.style, std::cerr) {}
 
-  /// What stopped everything before its end; ok: nothing did.
   ExitCode execute() {
-    ExitCode stopped = ExitCode::ok;
-    // Every five milliseconds: take in what has ended, start what can
-    // be started, say how far it is.
+    ExitCode stopped = ExitCode::ok;  // what stopped everything before its end; ok: nothing did
+    // Take in what has ended, start what can be started, say how far it is.
     while (start_what_can(stopped == ExitCode::ok) || !workers_.empty()) {
       collect();
       if (stopped == ExitCode::ok &&
@@ -196,10 +200,8 @@ class Engine {
     }
     line_.end();
     index();
-    return stopped;
+    return conclude(stopped);
   }
-
-  const std::vector<Task>& tasks() const { return tasks_; }
 
  private:
   double seconds() const { return watch_.seconds(); }
@@ -241,14 +243,11 @@ class Engine {
   }
 
   void collect() {
-    for (auto at = workers_.begin(); at != workers_.end();) {
-      if (!at->second->has_ended()) {
-        ++at;
-        continue;
-      }
-      ended(at->first, at->second->status());
-      at = workers_.erase(at);
-    }
+    std::erase_if(workers_, [&](const auto& worker) {
+      const bool is_over = worker.second->has_ended();
+      if (is_over) ended(worker.first, worker.second->status());
+      return is_over;
+    });
   }
 
   void ended(size_t k, int status) {
@@ -279,10 +278,27 @@ class Engine {
     indexed_ = seconds();
   }
 
+  /// What came out, and how to go on.
+  ExitCode conclude(ExitCode stopped) const {
+    const long runs = std::ranges::count_if(tasks_, &Task::is_run),
+               finished = count(tasks_, true, TaskState::finished),
+               failed = count(tasks_, true, TaskState::failed);
+    std::cout << runs << " runs: " << finished << " finished (" << finished_before_
+              << " of them before)";
+    if (failed > 0) std::cout << ", " << failed << " failed";
+    if (runs > finished + failed) std::cout << ", " << runs - finished - failed << " to do";
+    std::cout << "; see " << (options_.results / "index.csv").string() << std::endl;
+    if (stopped == ExitCode::ok) return failed > 0 ? ExitCode::failure : ExitCode::ok;
+    std::cout << (stopped == ExitCode::time_limit ? "time limit reached" : "interrupted")
+              << "; nothing is lost: the same command goes on" << std::endl;
+    return stopped;
+  }
+
   const Plan& plan_;
   const PlanOptions& options_;
   fs::path program_;
   std::vector<Task> tasks_;
+  long finished_before_;
   double work_before_;
   StatusLine line_;
   Stopwatch watch_;
@@ -290,28 +306,6 @@ class Engine {
   std::map<size_t, std::unique_ptr<ChildProcess>> workers_;  // by task
   std::map<size_t, double> begun_;
 };
-
-/// What came out, and how to go on.
-ExitCode conclude(const std::vector<Task>& tasks, size_t before, ExitCode stopped,
-                  const fs::path& results) {
-  size_t runs = 0, finished = 0, failed = 0;
-  for (const Task& task : tasks) {
-    if (!task.is_run()) continue;
-    ++runs;
-    finished += task.state == TaskState::finished;
-    failed += task.state == TaskState::failed;
-  }
-  std::cout << runs << " runs: " << finished << " finished (" << before << " of them before)";
-  if (failed > 0) std::cout << ", " << failed << " failed";
-  if (runs > finished + failed) std::cout << ", " << runs - finished - failed << " to do";
-  std::cout << "; see " << (results / "index.csv").string() << std::endl;
-  if (stopped != ExitCode::ok) {
-    std::cout << (stopped == ExitCode::time_limit ? "time limit reached" : "interrupted")
-              << "; nothing is lost: the same command goes on" << std::endl;
-    return stopped;
-  }
-  return failed > 0 ? ExitCode::failure : ExitCode::ok;
-}
 
 }  // namespace
 
@@ -322,14 +316,7 @@ ExitCode run_plan(const Plan& plan, const PlanOptions& options) {
   const FileLock lock(options.results / "plan.lock", briefly);
   if (!lock.is_held())
     throw Error(options.results.string() + ": " + lock.holder() + " is running a plan there");
-  Engine engine(plan, options, make_tasks(options.results, chosen));
-  const auto finished = [](const Task& task) {
-    return task.is_run() && task.state == TaskState::finished;
-  };
-  const size_t before =
-      static_cast<size_t>(std::count_if(engine.tasks().begin(), engine.tasks().end(), finished));
-  const ExitCode stopped = engine.execute();
-  return conclude(engine.tasks(), before, stopped, options.results);
+  return Engine(plan, options, make_tasks(options.results, chosen)).execute();
 }
 
 }  // namespace ballast
