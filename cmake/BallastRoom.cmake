@@ -88,19 +88,18 @@ function(ballast_made_source name source code)
 endfunction()
 
 # ballast_texts(NAME): builds the texts/*.md of all rooms beside this CMakeLists.txt into the room
-# ballast_NAME, which defines page::words by them.
+# ballast_NAME, where page::words finds them.
 function(ballast_texts name)
   file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*/texts/*.md)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/words.cpp)
-  set(code "#include \"experiments/page/text.hpp\"\n\n")
-  string(APPEND code "const ballast::page::Prose& ballast::page::prose() {\n")
-  string(APPEND code "  static const Prose all{\n")
+  set(code "#include <string_view>\n#include <vector>\n\nnamespace ballast::page {\n\n")
+  string(APPEND code "std::vector<std::string_view> text_files() {\n  return {\n")
   foreach(file IN LISTS files)
     file(READ ${file} words)
     string(APPEND code "R\"prose(${words})prose\",\n")
   endforeach()
-  string(APPEND code "  };\n  return all;\n}\n")
+  string(APPEND code "  };\n}\n\n}\n")
   ballast_made_source(${name} ${source} "${code}")
 endfunction()
 

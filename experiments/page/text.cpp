@@ -12,6 +12,9 @@
 #include "platform/text.hpp"
 
 namespace ballast::page {
+
+std::vector<std::string_view> text_files();  // of experiments/<room>/texts
+
 namespace {
 
 /// Marks that open and close alike. "**" stands before "*": the longer one is tried first.
@@ -265,14 +268,15 @@ Text verdict(double value, double bound) {
   return value <= bound ? Text("✓ met", good) : Text("✗ missed", bad);
 }
 
-Prose::Prose(std::initializer_list<std::string_view> files) {
+std::map<std::string, std::string> entries_of(const std::vector<std::string_view>& files) {
+  std::map<std::string, std::string> entries;
   for (const std::string_view file : files) {
     std::istringstream lines{std::string(file)};
     std::string* entry = nullptr;
     bool is_after_gap = false;
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with("# ")) {
-        const auto [place, is_new] = entries_.try_emplace(line.substr(2));
+        const auto [place, is_new] = entries.try_emplace(line.substr(2));
         if (!is_new) throw std::logic_error("page texts: \"" + place->first + "\" stands twice");
         entry = &place->second;
         is_after_gap = false;
@@ -287,11 +291,13 @@ Prose::Prose(std::initializer_list<std::string_view> files) {
       }
     }
   }
+  return entries;
 }
 
-Text Prose::operator()(const std::string& name, const Values& values) const {
-  const auto entry = entries_.find(name);
-  if (entry == entries_.end()) throw std::logic_error("page texts: there is no \"" + name + "\"");
+Text words(const std::string& name, const Values& values) {
+  static const std::map<std::string, std::string> entries = entries_of(text_files());
+  const auto entry = entries.find(name);
+  if (entry == entries.end()) throw std::logic_error("page texts: there is no \"" + name + "\"");
   return marked(entry->second, values);
 }
 

@@ -6,9 +6,8 @@
 //
 // A string becomes Text as it is: no character of it means anything, so that what comes from files
 // and users cannot become markup. Only marked() reads the notation; it is given literals of this
-// program and its text files (Prose), never anything from outside.
+// program and its text files (words), never anything from outside.
 
-#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -57,8 +56,8 @@ using Values = std::map<std::string, Text>;
 
 /// Reads the notation: **strong**, *symbol*, ~subscript~, ^superscript^, `code`, ((note)),
 /// [words](address), {name of a value}; a backslash takes the next character as it is.
-/// Throws std::logic_error on a mark that isn't closed, a value that is missing or not used: these
-/// are faults of the program.
+/// Throws std::logic_error on a mark that isn't closed or a value that is missing: these are faults
+/// of the program.
 Text marked(std::string_view notation, const Values& values = {});
 
 /// Words alone: titles, file names, tests. Powers keep their height (10⁻⁴) where Unicode has it.
@@ -102,24 +101,14 @@ Text verdict(double value, double bound);
 ///   Displacement *x* of the wall. Here it first goes in by {size}.
 ///
 ///   page::words("fig3.found", {{"size", page::quantity(1e3 * size, "mm")}})
-class Prose {
- public:
-  /// Contents of the files. An entry's lines are joined by spaces, an empty line in it is a line
-  /// break. Throws std::logic_error when a name occurs twice, or words stand before a headline.
-  explicit Prose(std::initializer_list<std::string_view> files);
+///
+/// An entry's name stands once in all rooms. Texts of one figure may share their values. Throws
+/// std::logic_error when there is no entry of that name, and as marked() does.
+Text words(const std::string& name, const Values& values = {});
 
-  /// The entry with its values filled in: texts of one figure may share theirs. Throws
-  /// std::logic_error when there is no entry of that name, and as marked() does.
-  Text operator()(const std::string& name, const Values& values = {}) const;
-
- private:
-  std::map<std::string, std::string> entries_;
-};
-
-/// All text files of the program together: a name stands once in all rooms.
-const Prose& prose();
-inline Text words(const std::string& name, const Values& values = {}) {
-  return prose()(name, values);
-}
+/// The entries of such files by their names. An entry's lines are joined by spaces, an empty line
+/// in it is a line break. Throws std::logic_error when a name occurs twice, or words stand before a
+/// headline.
+std::map<std::string, std::string> entries_of(const std::vector<std::string_view>& files);
 
 }  // namespace ballast::page

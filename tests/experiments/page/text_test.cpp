@@ -125,16 +125,19 @@ TEST_CASE("settings without trailing zeros, units, errors, deviations, intervals
 }
 
 TEST_CASE("named paragraphs of text files, lines joined, values filled in") {
-  const Prose texts{"# first\n\nOne line,\nand *another*.\n\nBroken.\n\n# second\n{x} mm\n",
-                    "# third\na\n"};
+  const auto entries = entries_of(
+      {"# first\n\nOne line,\nand *another*.\n\nBroken.\n\n# second\n{x} mm\n", "# third\na\n"});
+  const auto texts = [&](const char* name, const Values& values = {}) {
+    return marked(entries.at(name), values);
+  };
   CHECK(texts("first") == marked("One line, and *another*.\nBroken."));
   CHECK(texts("second", {{"x", number(1.5)}}) == Text("1.50 mm"));
   CHECK(texts("third") == Text("a"));
   CHECK(texts("third", {{"x", "of another text"}}) == Text("a"));
-  CHECK_THROWS_WITH(texts("b"), Contains("there is no \"b\""));
+  CHECK_THROWS_WITH(words("b"), Contains("there is no \"b\""));
   CHECK_THROWS_WITH(texts("second"), Contains("{x}") && Contains("mm"));
-  CHECK_THROWS_WITH((Prose{"# a\nx\n", "# a\ny\n"}), Contains("\"a\" stands twice"));
-  CHECK_THROWS_WITH((Prose{"words\n# a\n"}), Contains("no headline before \"words\""));
+  CHECK_THROWS_WITH(entries_of({"# a\nx\n", "# a\ny\n"}), Contains("\"a\" stands twice"));
+  CHECK_THROWS_WITH(entries_of({"words\n# a\n"}), Contains("no headline before \"words\""));
 }
 
 TEST_CASE("a table's words are its caption and the cells of its head") {
