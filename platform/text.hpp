@@ -20,6 +20,9 @@ void add_to_list(std::string& list, std::string_view item);
 /// file may hold any.
 std::string one_line(std::string_view text, char shown);
 
+/// Every `from` in the text becomes `to`.
+void replace_all(std::string& text, std::string_view from, std::string_view to);
+
 /// Levenshtein's distance: letters to insert, to leave out and to replace.
 size_t edit_distance(std::string_view a, std::string_view b);
 

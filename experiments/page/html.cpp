@@ -55,11 +55,6 @@ std::string palette_rules() {
   return rules;
 }
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-}
-
 /// Cuts every stretch from `begin` to `end`, both included.
 void cut_all(std::string& text, std::string_view begin, std::string_view end) {
   for (size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
@@ -79,10 +74,18 @@ void tighten_colours(std::string& text) {
   }
 }
 
-/// The modules in the order in which they build upon each other.
+// The modules in the order in which they build upon each other.
 constexpr std::array common_modules = {"elements.js", "choice.js",  "numbers.js", "tables.js",
                                        "palette.js",  "legends.js", "charts.js",  "origins.js",
                                        "pictures.js", "answers.js"};
+constexpr std::array replay_modules = {
+    "vector.js", "colour.js", "data.js",  "camera.js", "shader.js", "mesh.js",  "stage.js",
+    "shades.js", "marks.js",  "plots.js", "panel.js",  "errors.js", "input.js", "replay.js"};
+
+/// An element with modules whose names are their own.
+std::string script_of(const std::string& modules) {
+  return "<script>\n(() => {\n\"use strict\";\n" + modules + "})();\n</script>\n";
+}
 
 /// Five digits are more than a chart shows; JSON has no NaN.
 Json short_number(double value) {
@@ -152,18 +155,6 @@ std::string page_data_json(const Page& page) {
           pictures.push_back(figure_json(picture->plot));
   }
   return for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
-/// The modules in the order in which they build upon each other.
-constexpr std::array replay_modules = {
-    "vector.js", "colour.js", "data.js",  "camera.js", "shader.js", "mesh.js",  "stage.js",
-    "shades.js", "marks.js",  "plots.js", "panel.js",  "errors.js", "input.js", "replay.js"};
-
-std::string replay_script() {
-  std::string code =
-      "(() => {\n\"use strict\";\n" + answers_file("elements.js") + answers_file("choice.js");
-  for (const char* name : replay_modules) code += replay_file(name);
-  return code + "})();\n";
 }
 
 /// Tables of more columns may be wider than the text.
@@ -265,23 +256,22 @@ struct HtmlBlocks {
     for (const auto& [name, bytes] : replay.parts)
       html += "<script type=\"text/plain\" id=\"replay-" + name + "\">" +
               base64(deflated(bytes, 9)) + "</script>\n";
-    return html + "<script>\n" + replay_script() + "</script>\n</figure>\n";
+    std::string modules = answers_file("elements.js") + answers_file("choice.js");
+    for (const char* name : replay_modules) modules += replay_file(name);
+    return html + script_of(modules) + "</figure>\n";
   }
 };
 
-std::string header_of(const Page& page) {
-  std::string html = "<header>\n<h1>" + escaped_html(page.title) + "</h1>\n";
-  for (const Text& line : page.lede)
-    if (!line.empty()) html += "<p class=\"lede\">" + html_of(line) + "</p>\n";
-  return html + "</header>\n";
-}
-
-std::string section_html(const Section& section) {
-  if (section.is_empty()) return {};
-  std::string html = "<section id=\"" + escaped_html(section.id) + "\">\n<h2>" +
-                     html_of(section.heading) + "</h2>\n";
-  for (const Block& block : section.blocks) html += html_of(block);
-  return html + "</section>\n";
+/// Data, library and modules of a page that answers, as its last elements; empty when it does not,
+/// or when the program was built without the library.
+std::string answers_html(const Page& page) {
+  if (!page.answers.are_given || !can_answer()) return {};
+  std::string modules;
+  for (const char* name : common_modules) modules += answers_file(name);
+  for (const std::string& module : page.answers.modules) modules += module;
+  return "<style>\n" + answers_file("answers.css") +
+         "</style>\n<script type=\"application/json\" id=\"page-data\">" + page_data_json(page) +
+         "</script>\n<script>\n" + chart_library() + "</script>\n" + script_of(modules);
 }
 
 }  // namespace
@@ -327,8 +317,17 @@ std::string html_of(const Page& page) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       escaped_html(page.title) + "</title>\n<style>\n" + style_sheet() + palette_rules() +
-      "</style>\n</head>\n<body>\n<main>\n" + header_of(page) + html_of(Block(page.notices));
-  for (const Section& section : page.sections) html += section_html(section);
+      "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>" + escaped_html(page.title) + "</h1>\n";
+  for (const Text& line : page.lede)
+    if (!line.empty()) html += "<p class=\"lede\">" + html_of(line) + "</p>\n";
+  html += "</header>\n" + html_of(Block(page.notices));
+  for (const Section& section : page.sections) {
+    if (section.is_empty()) continue;
+    html += "<section id=\"" + escaped_html(section.id) + "\">\n<h2>" + html_of(section.heading) +
+            "</h2>\n";
+    for (const Block& block : section.blocks) html += html_of(block);
+    html += "</section>\n";
+  }
   if (page.answers.are_given && !can_answer())
     html += "<p class=\"note\">" + html_of(words("answers.missing")) + "</p>\n";
   if (!page.end.empty()) html += "<footer>" + html_of(page.end) + "</footer>\n";
@@ -359,17 +358,6 @@ std::string inline_svg(std::string_view svg, const std::string& name, const std:
 }
 
 bool can_answer() { return !chart_library().empty(); }
-
-std::string answers_html(const Page& page) {
-  if (!page.answers.are_given || !can_answer()) return {};
-  std::string whole = "(() => {\n\"use strict\";\n";
-  for (const char* name : common_modules) whole += answers_file(name);
-  for (const std::string& module : page.answers.modules) whole += module;
-  return "<style>\n" + answers_file("answers.css") +
-         "</style>\n<script type=\"application/json\" id=\"page-data\">" + page_data_json(page) +
-         "</script>\n<script>\n" + chart_library() + "</script>\n<script>\n" + whole +
-         "})();\n</script>\n";
-}
 
 }  // namespace page
 }  // namespace ballast

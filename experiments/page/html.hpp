@@ -27,10 +27,6 @@ std::string escaped_html(std::string_view text);
 /// palette, and `title` for screen readers.
 std::string inline_svg(std::string_view svg, const std::string& name, const std::string& title);
 
-/// Data, library and modules of a page that answers, as its last elements; empty when it does not,
-/// or when the program was built without the library.
-std::string answers_html(const Page& page);
-
 /// Is the library that draws built in (Chart.js)?
 bool can_answer();
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "platform/text.hpp"
+
 namespace ballast::page {
 namespace {
 
@@ -62,8 +64,7 @@ std::string span_text(const Span& span) {
     std::string clean = clean_utf8(span.text);
     std::replace(clean.begin(), clean.end(), '\n', ' ');
     // in a table a bar ends the cell, even in code
-    for (size_t at = 0; (at = clean.find('|', at)) != std::string::npos; at += 2)
-      clean.insert(at, 1, '\\');
+    replace_all(clean, "|", "\\|");
     const std::string fence = fence_for(clean, 1);
     const char* space = fence.size() > 1 ? " " : "";
     words = fence + space + clean + space + fence;

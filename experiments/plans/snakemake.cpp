@@ -3,6 +3,7 @@
 #include "experiments/plans/plan_runner.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 
 namespace ballast {
@@ -13,14 +14,6 @@ std::string cluster_file(const std::string& name);  // of experiments/plans/clus
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The text with every @, which stands for this folder, replaced.
-std::string with_folder(std::string text, const fs::path& folder) {
-  for (size_t at = text.find('@'); at != std::string::npos;
-       at = text.find('@', at + folder.string().size()))
-    text.replace(at, 1, folder.string());
-  return text;
-}
 
 /// What the Snakefile reads: the arguments of every job, by packing and by run.
 Json jobs_json(const std::vector<PlannedRun>& runs, const fs::path& results,
@@ -55,8 +48,9 @@ void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::
                 ": stands in commands for a shell and Snakemake: expected a path without blanks, "
                 "quotes and brackets");
   create_folder(folder / "slurm" / "jobs");
-  write_whole_file(folder / "slurm" / "config.yaml",
-                   with_folder(cluster_file("config.yaml"), folder));
+  std::string profile = cluster_file("config.yaml");
+  replace_all(profile, "@", folder.string());  // it stands for this folder
+  write_whole_file(folder / "slurm" / "config.yaml", profile);
   const fs::path status = folder / "slurm" / "status.sh";
   write_whole_file(status, cluster_file("status.sh"));
   fs::permissions(status, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
