@@ -78,12 +78,13 @@ void show_results(const RunEnd& end, const RunOptions& options, bool with_page) 
 ExitCode tell_trust(const RunEnd& end, const RunRequest& request) {
   const RunData data = read_run_data(end.folder);
   const RunSummary run = summarise(data.steps, data.facts);
-  if (request.run.style != Progress::Style::quiet) {
+  const bool is_failure = request.strict && !is_clean(run);
+  if (is_failure || request.run.style != Progress::Style::quiet) {
     std::cout << "\nto be known\n";
     for (const std::string& words : trust_words(run)) std::cout << "  " << words << '\n';
     std::cout << std::flush;
   }
-  if (!request.strict || is_clean(run)) return ExitCode::ok;
+  if (!is_failure) return ExitCode::ok;
   std::cerr << "ballast: " << request.run.scene << ": --strict: finished, with what is said above"
             << std::endl;
   return ExitCode::failure;

@@ -12,7 +12,7 @@ namespace ballast {
 
 /// Rows are appended to log/steps.bin (fixed size, one per step), log/poses.bin (fixed size, one
 /// per stored frame) and, if asked for, log/forces.bin (one per contact of a stored frame), so that
-/// a killed run loses at most what came after its last checkpoint, and a resumed one cuts both back
+/// a killed run loses at most what came after its last checkpoint, and a resumed one cuts them back
 /// to it.
 class Recorder {
  public:
@@ -33,8 +33,8 @@ class Recorder {
   /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws
   /// Error, for instance on a full disk.
   void flush();
-  /// steps.csv and record.h5 from the logs, each written beside and renamed. `attributes`: manifest
-  /// text stored in the file.
+  /// steps.csv and record.h5 from the logs, each written beside and renamed. The two texts are kept
+  /// in record.h5.
   void finish(const std::string& scene_text, const std::string& manifest_text);
 
  private:

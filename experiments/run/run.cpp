@@ -109,7 +109,9 @@ class Run {
         std::cout << folder_.path().string() << ": finished already" << std::endl;
       return false;
     }
-    folder_.reopen(resolved_.text);
+    if (read_whole_file(folder_.scene()) != resolved_.text)
+      throw Error(folder_.path().string() +
+                  ": holds a run of other settings: give the same scene and --set, or --overwrite");
     manifest_ = Manifest::read(folder_.manifest());
     return true;
   }

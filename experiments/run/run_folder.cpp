@@ -264,12 +264,6 @@ std::vector<fs::path> RunFolder::state_files() const {
   return files;
 }
 
-void RunFolder::reopen(const std::string& scene_text) const {
-  if (read_whole_file(scene()) != scene_text)
-    throw Error(path_.string() +
-                ": holds a run of other settings: give the same scene and --set, or --overwrite");
-}
-
 MechanicalSystem system_of_run(const fs::path& path, MotionState& state) {
   const RunFolder folder(path);
   if (!folder.has_run()) throw Error(path.string() + ": no run here: scene.toml is missing");

@@ -8,7 +8,7 @@
 //    "machine":  {"cpu", "cores", "memory_GB", "load_average": [1, 5, 15 min],
 //                 "environment": {name: value}},
 //    "scene": name, "overrides": ["dotted.key=value"], "started": UTC,
-//    "key": scene_key() of the resolved scene,
+//    "key": of the resolved scene,
 //    "resumed":  [{"step", "at": UTC, "commit", "modified", "cpu"}],
 //    "summary":  {name: number or text}}
 //
@@ -92,8 +92,6 @@ class RunFolder {
   /// Refuses a folder with files but without a run of ours: they are somebody's, and are neither
   /// removed nor mixed with a run's.
   void begin(const std::string& scene_text, const Manifest& manifest, bool overwrite) const;
-  /// A run to continue: refuses one of another scene than `scene_text`.
-  void reopen(const std::string& scene_text) const;
 
  private:
   std::filesystem::path path_;

@@ -199,21 +199,6 @@ std::vector<page::Text> lede_of(const RunData& data, const RunSummary& summary) 
   return {extent + ".", made_by(data)};
 }
 
-void note_what_cannot_be_said(const RunSummary& summary, RunData& data) {
-  const auto note = [&](const char* name) {
-    data.notices.push_back(page::plain_words(page::words(std::string("run.") + name)));
-  };
-  if (!std::isfinite(summary.facts.velocity_scale)) note("no_gravity");
-  if (summary.facts.has_packing && summary.wall.periods.empty()) note("no_period");
-}
-
-page::Section pictures(const char* id, const char* heading,
-                       const std::vector<page::Picture>& figures) {
-  page::Section section{id, heading};
-  section.add(figures);
-  return section;
-}
-
 /// The bodies in 3D; empty where no pose is stored, or none that can be read.
 page::Replay replay_of_run(RunData& data) {
   try {
@@ -334,13 +319,21 @@ std::string next_commands(bool has_grains) {
 void write_report(const std::filesystem::path& folder) {
   RunData data = read_run_data(folder);
   const RunSummary summary = summarise(data.steps, data.facts);
-  note_what_cannot_be_said(summary, data);
-  page::Section motion{"motion", "What happens"};
+  const bool has_packing = summary.facts.has_packing;
+  const auto note = [&](const char* name) {
+    data.notices.push_back(page::plain_words(page::words(name)));
+  };
+  if (!std::isfinite(summary.facts.velocity_scale)) note("run.no_gravity");
+  if (has_packing && summary.wall.periods.empty()) note("run.no_period");
+  page::Section motion{"motion", "What happens"},
+      paper{"paper", has_packing ? "What the paper shows" : "Motion of the wall"},
+      diagnostics{"diagnostics", "Can it be trusted?"}, parameters{"parameters", "Parameters"};
   motion.add(replay_of_run(data));
+  paper.add(paper_figures(data, summary));
+  diagnostics.add(diagnostic_figures(data, summary));
   // What must be known first stands first.
   const std::vector<std::string> words = trust_words(summary);
   if (!is_clean(summary)) data.notices.insert(data.notices.begin(), words.begin(), words.end());
-  const bool has_packing = summary.facts.has_packing;
   page::Page page;
   page.title = name_of_run(data);
   page.lede = lede_of(data, summary);
@@ -349,12 +342,10 @@ void write_report(const std::filesystem::path& folder) {
   page.answers = {.are_given = true, .with_curves = true};
   page.add(std::move(motion));
   page.add({"results", "The run in numbers", {results_table(summary)}});
-  page.add(pictures("paper", has_packing ? "What the paper shows" : "Motion of the wall",
-                    paper_figures(data, summary)));
+  page.add(std::move(paper));
   page.add({"periods", "Period by period", {periods_table(summary)}});
-  page.add(pictures("diagnostics", "Can it be trusted?", diagnostic_figures(data, summary)));
+  page.add(std::move(diagnostics));
   page.add({"cost-table", "Cost", {cost_table(summary)}});
-  page::Section parameters{"parameters", "Parameters"};
   std::string list;
   for (const std::string& set : list_at(data, "overrides"))
     list += (list.empty() ? "" : "\n") + set;
