@@ -21,12 +21,10 @@ Scene stage_scene(const Scene& scene, BoxStage stage) {
   Scene staged = scene;
   staged.step = stage == BoxStage::settle ? scene.deposit.settle_step : scene.deposit.step;
   staged.gravity = deposit_gravity(scene);
-  const int threads = scene.solver.threads;
-  staged.solver = SolverSpec{};
-  staged.solver.name = scene.deposit.solver;
-  staged.solver.tolerance = scene.deposit.tolerance;
-  staged.solver.max_iterations = scene.deposit.max_iterations;
-  staged.solver.threads = threads;
+  staged.solver = {.name = scene.deposit.solver,
+                   .tolerance = scene.deposit.tolerance,
+                   .max_iterations = scene.deposit.max_iterations,
+                   .threads = scene.solver.threads};
   return staged;
 }
 

@@ -59,15 +59,6 @@ std::vector<Vec3> scatter(const std::vector<double>& radii, double length, doubl
   return centres;
 }
 
-WallSpec wall(const char* name, const Vec3& normal, double offset, double friction) {
-  WallSpec spec;
-  spec.name = name;
-  spec.normal = normal;
-  spec.offset = offset;
-  spec.friction = friction;
-  return spec;
-}
-
 void drive_by(WallSpec& spec, double mass, const HarmonicLoad& load) {
   spec.motion = WallMotion::driven;
   spec.mass = mass;
@@ -129,14 +120,14 @@ MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage
   const double mass = system.mass_of_grains(), weight = mass * system.gravity.norm();
   // The box as it stands, in the order of BoxWall, then what drives a wall of it in this stage. A
   // corner of the box is the origin, and normals point into the box. A wall's plane is normal.x =
-  // offset: of x_max, at x = length, the normal is -x and the offset -length.
-  WallSpec walls[box_wall_count] = {
-      wall("floor", Vec3::UnitZ(), 0.0, horizontal),
-      wall("lid", -Vec3::UnitZ(), -lid, horizontal),
-      wall("x_min", Vec3::UnitX(), 0.0, box.friction_vertical),
-      wall("x_max", -Vec3::UnitX(), -box.length, box.friction_vertical),
-      wall("y_min", Vec3::UnitY(), 0.0, box.friction_vertical),
-      wall("y_max", -Vec3::UnitY(), -box.width, box.friction_vertical)};
+  // offset: of x_max, at x = length, the normal is -x and the offset -length. Name, normal, offset,
+  // friction:
+  WallSpec walls[box_wall_count] = {{"floor", Vec3::UnitZ(), 0.0, horizontal},
+                                    {"lid", -Vec3::UnitZ(), -lid, horizontal},
+                                    {"x_min", Vec3::UnitX(), 0.0, box.friction_vertical},
+                                    {"x_max", -Vec3::UnitX(), -box.length, box.friction_vertical},
+                                    {"y_min", Vec3::UnitY(), 0.0, box.friction_vertical},
+                                    {"y_max", -Vec3::UnitY(), -box.width, box.friction_vertical}};
   if (stage == BoxStage::press) {
     const double load = scene.deposit.lid_pressure_weight * weight;
     drive_by(walls[wall_lid], mass, {load, load, 0.0});

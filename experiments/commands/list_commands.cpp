@@ -2,7 +2,6 @@
 // problems from one format into another.
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -37,28 +36,19 @@ void print_solvers() {
   }
 }
 
-void print_scenes() {
-  std::cout << "in " << scene_folder().string() << ":\n";
-  for (const auto& [name, title] : list_scenes())
-    std::cout << printed("%-22s", name.c_str()) << title << '\n';
-}
-
-/// Without scene.name where it is only the file's: in a file of the user's own it would lead into
-/// the results of the scene that was printed.
-std::string without_name(std::string text, const std::string& name) {
-  const std::string line = "\nname = \"" + name + "\"\n";
-  const size_t at = text.find(line, text.find("[scene]"));
-  return at == std::string::npos ? text : text.erase(at, line.size() - 1);
-}
-
+/// As it stands in its file; resolved without scene.name where that is only the file's: in a file
+/// of the user's own it would lead into the results of the scene that was printed.
 void print_scene(const std::string& name, const std::vector<std::string>& overrides,
                  bool resolved) {
-  const std::filesystem::path file = find_scene(name);
+  const fs::path file = find_scene(name);
+  std::string text = read_whole_file(file);
   if (resolved || !overrides.empty()) {
-    std::cout << without_name(resolve_scene(file, overrides).text, file.stem().string());
-    return;
+    text = resolve_scene(file, overrides).text;
+    const std::string line = "\nname = \"" + file.stem().string() + "\"\n";
+    if (const size_t at = text.find(line, text.find("[scene]")); at != std::string::npos)
+      text.erase(at, line.size() - 1);
   }
-  std::cout << std::ifstream(file).rdbuf();
+  std::cout << text;
 }
 
 struct CheckOptions {
@@ -231,10 +221,13 @@ Command scenes_command() {
            {"--set KEY=VALUE", &options->overrides,
             "With this override, resolved: dotted.key=value", needs("name")}},
           [options] {
-            if (options->name.empty())
-              print_scenes();
-            else
+            if (!options->name.empty()) {
               print_scene(options->name, options->overrides, options->resolved);
+              return ExitCode::ok;
+            }
+            std::cout << "in " << scene_folder().string() << ":\n";
+            for (const auto& [name, title] : list_scenes())
+              std::cout << printed("%-22s", name.c_str()) << title << '\n';
             return ExitCode::ok;
           }};
 }

@@ -27,16 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ExitCode draw_pages(const std::vector<std::string>& folders) {
-  for (const std::filesystem::path folder : folders) {
-    if (!RunFolder(folder).has_run())
-      throw Error(folder.string() + ": no run here: scene.toml is missing");
-    write_report(folder);
-    std::cout << (folder / "report.html").string() << std::endl;
-  }
-  return ExitCode::ok;
-}
-
 struct RunRequest {
   RunOptions run;
   bool with_page = true, strict = false;
@@ -232,7 +222,15 @@ Command report_command() {
   return {"report",
           "Draws the page of a run from its record, again or while it goes on",
           {{"run", folders.get(), "Folders of runs", required}},
-          [folders] { return draw_pages(*folders); }};
+          [folders] {
+            for (const fs::path folder : *folders) {
+              if (!RunFolder(folder).has_run())
+                throw Error(folder.string() + ": no run here: scene.toml is missing");
+              write_report(folder);
+              std::cout << (folder / "report.html").string() << std::endl;
+            }
+            return ExitCode::ok;
+          }};
 }
 
 Command run_command() {

@@ -88,13 +88,11 @@ std::string script_of(const std::string& modules) {
 }
 
 /// Five digits are more than a chart shows; JSON has no NaN.
-Json short_number(double value) {
-  return std::isfinite(value) ? Json(parsed_number(printed("%.5g", value)).value_or(0.0)) : Json();
-}
-
 Json short_numbers(const std::vector<double>& values) {
   Json list = Json::array();
-  for (const double value : values) list.push_back(short_number(value));
+  for (const double value : values)
+    list.push_back(std::isfinite(value) ? Json(parsed_number(printed("%.5g", value)).value_or(0.0))
+                                        : Json());
   return list;
 }
 

@@ -50,18 +50,9 @@ StepCapture::StepCapture(const CaptureSettings& settings, std::filesystem::path 
                          double g)
     : settings_(settings), folder_(std::move(folder)), h_(h), g_(g) {}
 
-/// As wall_cycles has it, but from what is known at the step: at rest is what is slow beside the
-/// fastest so far.
-std::string StepCapture::phase_of(const StepRecord& record) {
-  fastest_wall_ = std::max(fastest_wall_, std::abs(record.wall_v));
-  if (fastest_wall_ == 0.0) return "none";
-  if (std::abs(record.wall_v) <= WallSettings{}.jammed_speed * fastest_wall_) return "jammed";
-  return record.wall_v > 0.0 ? "active" : "passive";
-}
-
 void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
                           const StepRecord& record) {
-  const std::string phase = phase_of(record);
+  fastest_wall_ = std::max(fastest_wall_, std::abs(record.wall_v));
   if (!settings_.takes(state.step)) return;
   CapturedProblem captured;
   captured.problem = stepper.problem();
@@ -71,7 +62,13 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
   captured.g = g_;
   captured.step = static_cast<int>(state.step);
   captured.time = state.time;
-  captured.phase = phase;
+  // As wall_cycles has it, but from what is known at the step: at rest is what is slow beside the
+  // fastest so far.
+  const bool is_slow = std::abs(record.wall_v) <= WallSettings{}.jammed_speed * fastest_wall_;
+  captured.phase = fastest_wall_ == 0.0  ? "none"
+                   : is_slow             ? "jammed"
+                   : record.wall_v > 0.0 ? "active"
+                                         : "passive";
   captured.wall_x = record.wall_x;
   captured.wall_v = record.wall_v;
   captured.load = record.load;

@@ -37,8 +37,6 @@ class StepCapture {
   void observe(const TimeStepper& stepper, const MotionState& state, const StepRecord& record);
 
  private:
-  std::string phase_of(const StepRecord& record);
-
   CaptureSettings settings_;
   std::filesystem::path folder_;
   double h_, g_;

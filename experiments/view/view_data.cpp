@@ -133,11 +133,9 @@ ViewData bodies_of_problem(const CapturedProblem& captured, std::vector<FrameCon
       if (known.is_plane() != are_walls) continue;
       place[id] = static_cast<int>(view.system.bodies.size());
       if (are_walls) {
-        WallSpec wall;
-        wall.name = printed("wall %d", id);
-        wall.normal = known.normals.front();
-        wall.offset = wall.normal.dot(known.points.front());
-        add_wall(view.system, state, wall);
+        const Vec3& normal = known.normals.front();
+        add_wall(view.system, state,
+                 {printed("wall %d", id), normal, normal.dot(known.points.front())});
       } else {
         const BodySpec body = hull_of(known, id);
         const double volume = 4.0 / 3.0 * M_PI * std::pow(body.shape->circumradius(), 3);

@@ -44,7 +44,7 @@ struct WallSpec {
   double friction = 0.0;  ///< mu of contacts with this wall
   WallMotion motion = WallMotion::fixed;
   double mass = 0.0;  ///< driven: [kg]
-  HarmonicLoad load;  ///< driven
+  HarmonicLoad load = {};  ///< driven
   /// prescribed: displacement amplitude (1 - cos 2 pi nu t), from rest [m]; nu [Hz]
   Vec3 amplitude = Vec3::Zero();
   double frequency = 0.0;
