@@ -74,26 +74,30 @@ class ErrorView {
     const place = part("errors"), { iterations } = this.solves[0];
     const names = this.solves.map((solve, k) => [String(k), solve.backend]);
     const two = this.solves.length > 1;
-    place.hidden = false;
-    place.replaceChildren(
-      selection("left", two ? "left" : "backend", names, String(this.shown[0])),
-      ...two ? [selection("right", "right", names, String(this.shown[1]))] : [],
-      slider("budget", "iterations", 0, iterations.length - 1, this.budget, 1),
-      element("output", { id: "replay-budgettext" }),
-      control("worst", "worst contact", "Look at the most wrong contact of the left picture"));
-    const listen = (id, event, action) => listenTo(id, event, (one) => {
-      action(one);
+    const changed = () => {
       this.say();
       replay.touched();
-    });
-    listen("left", "change", (select) => { this.shown[0] = +select.value; });
-    listen("right", "change", (select) => { this.shown[1] = +select.value; });
-    listen("budget", "input", (slider_) => { this.budget = +slider_.value; });
-    listen("worst", "click", () => {
-      this.worst = this.findWorst(0);
-      replay.camera.target = this.data.contactPlace(this.worst);
-      replay.camera.distance = 14 * replay.marks.meanReach;
-    });
+    };
+    const choose = (side, words, picture) =>
+      selection(side, words, names, String(this.shown[picture]), (chosen) => {
+        this.shown[picture] = +chosen;
+        changed();
+      });
+    place.hidden = false;
+    place.replaceChildren(choose("left", two ? "left" : "backend", 0),
+      ...two ? [choose("right", "right", 1)] : [],
+      slider("budget", "iterations", 0, iterations.length - 1, this.budget, 1, (budget) => {
+        this.budget = budget;
+        changed();
+      }),
+      element("output", { id: "replay-budgettext" }),
+      control("worst", "worst contact", "Look at the most wrong contact of the left picture",
+        () => {
+          this.worst = this.findWorst(0);
+          replay.camera.target = this.data.contactPlace(this.worst);
+          replay.camera.distance = 14 * replay.marks.meanReach;
+          changed();
+        }));
     this.say();
   }
 

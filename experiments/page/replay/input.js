@@ -74,30 +74,3 @@ function listenToKeys(canvas, replay) {
     replay.touched();
   });
 }
-
-// Buttons, sliders and choices.
-function listenToPanel(replay) {
-  listenTo("play", "click", () => replay.setPlaying(!replay.playing));
-  listenTo("back", "click", () => replay.step(-1));
-  listenTo("on", "click", () => replay.step(1));
-  listenTo("time", "input", (slider_) => {
-    replay.setPlaying(false);
-    replay.setTime(+slider_.value);
-  });
-  listenTo("rate", "change", (select) => {
-    replay.rate = +select.value;
-    replay.touched();
-  });
-  for (const name of ["colour", "grains", "cut"])
-    listenTo(name, "change", (select) => replay.set({ [name]: select.value }));
-  for (const [name, other] of [["chains", "points"], ["points", "chains"]])
-    listenTo(name, "change", (box) => replay.set({ [name]: box.checked,
-      grains: box.checked || replay.options[other] ? "ghost" : "solid" }));
-  listenTo("threshold", "input", (slider_) => replay.set({ threshold: +slider_.value }));
-  listenTo("cutat", "input", (slider_) => replay.set({ cutAt: +slider_.value }));
-  for (const name of ["home", "x", "-x", "y", "-y", "z"])
-    listenTo("view" + name, "click", () => {
-      if (name === "home") replay.camera.home(); else replay.camera.along(name);
-      replay.touched();
-    });
-}

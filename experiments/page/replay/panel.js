@@ -1,33 +1,30 @@
 // The page's elements around the picture: buttons, choices, legend, facts about a picked grain.
 
-const selection = (id, words, options, chosen) => {
-  const select = element("select", { id: "replay-" + id },
+// The last argument of each is called when the reader chooses, with what is chosen.
+const selection = (id, words, options, chosen, changed) => element("label", {}, words,
+  element("select", { id: "replay-" + id, onchange: (event) => changed(event.target.value) },
     ...options.map(([value, text]) =>
-      element("option", { value, selected: value === chosen }, text)));
-  return element("label", {}, words, select);
-};
-const slider = (id, words, min, max, value, step = "any") => element("label", {}, words,
+      element("option", { value, selected: value === chosen }, text))));
+const slider = (id, words, min, max, value, step, moved) => element("label", {}, words,
   element("input", { id: "replay-" + id, type: "range", min, max, step, value,
-    "aria-label": words || id }));
-const control = (id, text, title) =>
-  element("button", { id: "replay-" + id, type: "button", title, "aria-label": title }, text);
-const tick = (id, words) => element("label", {},
-  element("input", { id: "replay-" + id, type: "checkbox" }), words);
-
-// `action` is given the element, if the page has it, whenever that tells the event.
-function listenTo(id, event, action) {
-  const found = part(id);
-  if (found) found.addEventListener(event, () => action(found));
-}
+    "aria-label": words || id, oninput: (event) => moved(+event.target.value) }));
+const control = (id, text, title, pressed) =>
+  button(text, pressed, { id: "replay-" + id, title, "aria-label": title });
+const tick = (id, words, turned) => element("label", {},
+  element("input", { id: "replay-" + id, type: "checkbox",
+    onchange: (event) => turned(event.target.checked) }), words);
 
 // All elements, in the place of the still picture.
-function buildPanel(data, shades) {
-  const place = part("stage"), moves = data.times.length > 1;
+function buildPanel(replay) {
+  const { data, camera } = replay, moves = data.times.length > 1;
   const hasContacts = data.contactFrames.length > 0;
   const names = { speed: "speed", displacement: "displacement", rotation: "rotation",
     force: "force carried", size: "size class", none: "none" };
-  const colours = Object.keys(shades.choices).map((name) => [name, names[name]]);
-  place.replaceChildren(
+  const colours = Object.keys(replay.shades.choices).map((name) => [name, names[name]]);
+  // where marks are to be seen grains are glass
+  const marked = (name, other) => (on) => replay.set({ [name]: on,
+    grains: on || replay.options[other] ? "ghost" : "solid" });
+  part("stage").replaceChildren(
     element("div", { class: "views" },
       element("canvas", { id: "replay-canvas", tabindex: "0", role: "application",
         "aria-label": "The bodies in 3D. Arrows turn, + and - zoom, g picks a grain." }),
@@ -38,25 +35,38 @@ function buildPanel(data, shades) {
       element("div", { id: "replay-facts", "aria-live": "polite", hidden: true }),
       element("div", { id: "replay-load" })),
     element("div", { class: "controls", hidden: !moves },
-      control("back", "\u25c2\u25c2", "One stored frame back"),
-      control("play", "\u25b6", "Play"),
-      control("on", "\u25b8\u25b8", "One stored frame on"),
-      slider("time", "", data.begin, data.end, data.begin),
+      control("back", "\u25c2\u25c2", "One stored frame back", () => replay.step(-1)),
+      control("play", "\u25b6", "Play", () => replay.setPlaying(!replay.playing)),
+      control("on", "\u25b8\u25b8", "One stored frame on", () => replay.step(1)),
+      slider("time", "", data.begin, data.end, data.begin, "any", (time) => {
+        replay.setPlaying(false);
+        replay.setTime(time);
+      }),
       element("output", { id: "replay-clock" }),
       selection("rate", "speed", [["0.01", "1/100"], ["0.02", "1/50"], ["0.05", "1/20"],
-        ["0.1", "1/10"], ["0.2", "1/5"], ["0.5", "1/2"], ["1", "1"], ["2", "2"]], "0.2")),
+        ["0.1", "1/10"], ["0.2", "1/5"], ["0.5", "1/2"], ["1", "1"], ["2", "2"]], "0.2", (rate) => {
+        replay.rate = +rate;
+        replay.touched();
+      })),
     element("div", { class: "controls" },
-      selection("colour", "colour", colours, moves ? "speed" : "size"),
-      selection("grains", "grains",
-        [["solid", "solid"], ["ghost", "as glass"], ["hidden", "hidden"]], "solid"),
-      ...hasContacts ? [tick("chains", "force chains"), slider("threshold", "above", 0, 5, 1),
-        element("output", { id: "replay-thresholdtext" }), tick("points", "contact points")] : [],
-      selection("cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]], ""),
-      slider("cutat", "", 0, 1, 0.5),
+      selection("colour", "colour", colours, moves ? "speed" : "size",
+        (colour) => replay.set({ colour })),
+      selection("grains", "grains", [["solid", "solid"], ["ghost", "as glass"],
+        ["hidden", "hidden"]], "solid", (grains) => replay.set({ grains })),
+      ...hasContacts ? [tick("chains", "force chains", marked("chains", "points")),
+        slider("threshold", "above", 0, 5, 1, "any", (threshold) => replay.set({ threshold })),
+        element("output", { id: "replay-thresholdtext" }),
+        tick("points", "contact points", marked("points", "chains"))] : [],
+      selection("cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]], "",
+        (cut) => replay.set({ cut })),
+      slider("cutat", "", 0, 1, 0.5, "any", (cutAt) => replay.set({ cutAt })),
       element("span", { class: "views-along" }, "view ",
         ...[["home", "home"], ["x", "x"], ["-x", "\u2212x"], ["y", "y"], ["-y", "\u2212y"],
           ["z", "z"]].map(([name, text]) => control("view" + name, text,
-          name === "home" ? "The first view" : "Look along " + name)))),
+          name === "home" ? "The first view" : "Look along " + name, () => {
+            if (name === "home") camera.home(); else camera.along(name);
+            replay.touched();
+          })))),
     element("div", { class: "controls", id: "replay-errors", hidden: true }),
     element("canvas", { id: "replay-plots", hidden: !data.head.plots.length,
       "aria-label": "Curves of the run: a click goes to that moment" }));

@@ -12,7 +12,7 @@ class Replay {
     this.options = { colour: "speed", grains: "solid", chains: false, points: false, threshold: 1,
       cut: "", cutAt: 0.5, picked: -1 };
     this.quality = 1;
-    buildPanel(data, this.shades);
+    buildPanel(this);
     this.options.colour = part("colour").value;
     this.mesh = new Mesh(data);
     this.errors = new ErrorView(data);
@@ -37,7 +37,6 @@ class Replay {
       listenToPointer(canvas, this);
       listenToKeys(canvas, this);
     }
-    listenToPanel(this);
     this.set({});
     const observer = new ResizeObserver(() => {
       this.plots.layOut(this.colours);
