@@ -372,7 +372,7 @@ MechanicalSystem read_record_system(const std::filesystem::path& path) {
     if (shape >= static_cast<int>(system.shapes.size()))
       file.fail("bodies/shape[" + std::to_string(b) + "] names no shape");
     if (shape >= 0) {
-      body.shape.polyhedron = system.shapes[static_cast<size_t>(shape)].get();
+      body.shape.polyhedron = system.shapes[shape].get();
       if (static_cast<int>(b) != system.grain_count++)
         file.fail("/bodies has a wall before a grain");
     }

@@ -326,10 +326,10 @@ void write_report(const std::filesystem::path& folder) {
   if (!std::isfinite(summary.facts.velocity_scale)) note("run.no_gravity");
   if (has_packing && summary.wall.periods.empty()) note("run.no_period");
   page::Section motion{"motion", "What happens"},
-      paper{"paper", has_packing ? "What the paper shows" : "Motion of the wall"},
+      figures{"paper", has_packing ? "What the paper shows" : "Motion of the wall"},
       diagnostics{"diagnostics", "Can it be trusted?"}, parameters{"parameters", "Parameters"};
   motion.add(replay_of_run(data));
-  paper.add(paper_figures(data, summary));
+  figures.add(paper_figures(data, summary));
   diagnostics.add(diagnostic_figures(data, summary));
   // What must be known first stands first.
   const std::vector<std::string> words = trust_words(summary);
@@ -342,7 +342,7 @@ void write_report(const std::filesystem::path& folder) {
   page.answers = {.are_given = true, .with_curves = true};
   page.add(std::move(motion));
   page.add({"results", "The run in numbers", {results_table(summary)}});
-  page.add(std::move(paper));
+  page.add(std::move(figures));
   page.add({"periods", "Period by period", {periods_table(summary)}});
   page.add(std::move(diagnostics));
   page.add({"cost-table", "Cost", {cost_table(summary)}});

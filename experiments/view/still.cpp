@@ -103,13 +103,12 @@ void scan(const Lens& lens, const std::vector<Vec3>& corners, Visit&& visit) {
 template <class Use>
 void for_faces(const ViewData& view, const MotionState& frame, Use&& use) {
   for (int g = 0; g < view.system.grain_count; ++g) {
-    const Pose& pose = frame.pose[static_cast<size_t>(g)];
-    const Polyhedron& shape = *view.system.bodies[static_cast<size_t>(g)].shape.polyhedron;
+    const Pose& pose = frame.pose[g];
+    const Polyhedron& shape = *view.system.bodies[g].shape.polyhedron;
     for (int f = 0; f < shape.face_count(); ++f) {
       std::vector<Vec3> corners;
-      for (const int v : shape.face(f))
-        corners.push_back(pose * shape.vertices()[static_cast<size_t>(v)]);
-      use(static_cast<size_t>(g), Vec3(pose.rotation * shape.normal(f)), corners);
+      for (const int v : shape.face(f)) corners.push_back(pose * shape.vertices()[v]);
+      use(g, Vec3(pose.rotation * shape.normal(f)), corners);
     }
   }
 }
@@ -120,8 +119,7 @@ Box box_of(const ViewData& view) {
   Box grains;
   double largest = 0.0;
   for (const MotionState& frame : view.frames)
-    for (int g = 0; g < view.system.grain_count; ++g) {
-      const auto b = static_cast<size_t>(g);
+    for (int b = 0; b < view.system.grain_count; ++b) {
       const double reach = view.system.bodies[b].shape.polyhedron->circumradius();
       largest = std::max(largest, reach);
       grains.extend(frame.pose[b].position - Vec3::Constant(reach));
@@ -181,9 +179,7 @@ std::vector<std::pair<Rod, double>> chains_in(const ViewData& view, size_t frame
   std::vector<FrameContact> contacts = view.contacts(frame);
   if (contacts.empty() && frame == 0 && view.frames.size() > 1) contacts = view.contacts(frame = 1);
   std::map<std::pair<int, int>, std::pair<Rod, double>> pairs;
-  const auto centre = [&](int body) {
-    return view.frames[frame].pose[static_cast<size_t>(body)].position;
-  };
+  const auto centre = [&](int body) { return view.frames[frame].pose[body].position; };
   for (const FrameContact& contact : contacts) {
     const auto [a, b] = std::minmax(contact.body_a, contact.body_b);  // walls come after grains
     const bool meets_wall = b >= view.system.grain_count;
@@ -237,7 +233,7 @@ class Camera {
     sunlight_ = {axes_towards(sun), box_.center(), 0.49 * shadow_size / radius(),
                  shadow_size,       shadow_size,   true};
     for (size_t f = 0; f < view.frames.size(); ++f)
-      for (size_t g = 0; g < static_cast<size_t>(view.system.grain_count); ++g)
+      for (int g = 0; g < view.system.grain_count; ++g)
         top_value_ = std::max(top_value_, value_of(f, g));
     if (options.with_chains) top_force_ = top_force(view);
   }
@@ -260,36 +256,35 @@ class Camera {
   double radius() const { return 0.5 * box_.diagonal().norm(); }
 
   /// What a grain is coloured by: its speed, with fine steps near rest; in a single frame its size.
-  double value_of(size_t f, size_t g) const {
+  double value_of(size_t f, int g) const {
     return view_.frames.size() > 1 ? std::sqrt(view_.frames[f].velocity[g].norm())
                                    : std::cbrt(view_.system.bodies[g].volume);
   }
-  Colour colour_of(size_t frame, size_t grain) const {
+  Colour colour_of(size_t frame, int grain) const {
     return ramp_colour(top_value_ > 0.0 ? value_of(frame, grain) / top_value_ : 0.0);
   }
 
   void draw_solid(size_t frame) {
     std::vector<float> shadow(sunlight_.size(), std::numeric_limits<float>::infinity());
-    for_faces(view_, view_.frames[frame], [&](size_t, const Vec3&, const auto& corners) {
+    for_faces(view_, view_.frames[frame], [&](int, const Vec3&, const auto& corners) {
       scan(sunlight_, corners, [&](int x, int y, float depth) {
         shadow[sunlight_.at(x, y)] = std::min(shadow[sunlight_.at(x, y)], depth);
       });
     });
     std::vector<int> owner(lens_.size(), 0);  // which face is seen
     int number = 0;
-    for_faces(view_, view_.frames[frame],
-              [&](size_t grain, const Vec3& normal, const auto& corners) {
-                ++number;
-                const Colour colour = colour_of(frame, grain);
-                scan(lens_, corners, [&](int x, int y, float depth) {
-                  const size_t here = lens_.at(x, y);
-                  if (depth >= depth_[here]) return;
-                  depth_[here] = depth;
-                  owner[here] = number;
-                  const Vec3 above = lens_.point(x, y, depth) + 0.01 * radius() * normal;
-                  pixels_[here] = colour * light_at(sunlight_ * above, normal, shadow);
-                });
-              });
+    for_faces(view_, view_.frames[frame], [&](int grain, const Vec3& normal, const auto& corners) {
+      ++number;
+      const Colour colour = colour_of(frame, grain);
+      scan(lens_, corners, [&](int x, int y, float depth) {
+        const size_t here = lens_.at(x, y);
+        if (depth >= depth_[here]) return;
+        depth_[here] = depth;
+        owner[here] = number;
+        const Vec3 above = lens_.point(x, y, depth) + 0.01 * radius() * normal;
+        pixels_[here] = colour * light_at(sunlight_ * above, normal, shadow);
+      });
+    });
     // edges are where another face begins
     for (int y = 0; y < lens_.height; ++y)
       for (int x = 0; x < lens_.width; ++x) {
@@ -311,13 +306,12 @@ class Camera {
 
   /// Bodies as glass: each face that looks at the eye is a veil over what is behind it.
   void draw_glass(size_t frame) {
-    for_faces(
-        view_, view_.frames[frame], [&](size_t grain, const Vec3& normal, const auto& corners) {
-          const double facing = normal.dot((lens_.eye - corners[0]).normalized());
-          if (facing <= 0.0) return;
-          const Colour colour = 0.6f * colour_of(frame, grain) + 0.16f;
-          fill(corners, colour, static_cast<float>(0.03 + 0.2 * (1.0 - facing) * (1.0 - facing)));
-        });
+    for_faces(view_, view_.frames[frame], [&](int grain, const Vec3& normal, const auto& corners) {
+      const double facing = normal.dot((lens_.eye - corners[0]).normalized());
+      if (facing <= 0.0) return;
+      const Colour colour = 0.6f * colour_of(frame, grain) + 0.16f;
+      fill(corners, colour, static_cast<float>(0.03 + 0.2 * (1.0 - facing) * (1.0 - facing)));
+    });
   }
 
   void fill(const std::vector<Vec3>& corners, const Colour& colour, float share) {
@@ -368,7 +362,7 @@ class Camera {
     double mean = 0.0, reach = 0.0;
     const auto chains = chains_in(view_, frame);
     for (const auto& [rod, force] : chains) mean += force / static_cast<double>(chains.size());
-    for (size_t g = 0; g < static_cast<size_t>(view_.system.grain_count); ++g)
+    for (int g = 0; g < view_.system.grain_count; ++g)
       reach += view_.system.bodies[g].shape.polyhedron->circumradius() / view_.system.grain_count;
     for (auto [rod, force] : chains) {
       if (force < mean) continue;

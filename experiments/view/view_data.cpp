@@ -89,8 +89,7 @@ std::map<int, KnownBody> known_bodies(const CapturedProblem& captured) {
       KnownBody& known = bodies[is_b ? captured.id_b[k] : captured.id_a[k]];
       // a body turns when it has six unknowns
       const int body = is_b ? dynamics.body_b[k] : dynamics.body_a[k];
-      if (dynamics.body_dofs(body) == 6)
-        known.mass = dynamics.mass[dynamics.mass_begin[static_cast<size_t>(body)]];
+      if (dynamics.body_dofs(body) == 6) known.mass = dynamics.mass[dynamics.mass_begin[body]];
       const Vec3 normal(captured.frame.data() + 9 * k);
       known.points.emplace_back(captured.position.data() + 3 * k);
       known.normals.push_back(is_b ? Vec3(-normal) : normal);

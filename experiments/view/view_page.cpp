@@ -109,7 +109,7 @@ void pack_shapes(const ViewData& view, Json& head, page::Replay& replay) {
   head["shape_of"] = Json::array();
   Floats grains;
   for (int b = 0; b < view.system.grain_count; ++b) {
-    const RigidBody& body = view.system.bodies[static_cast<size_t>(b)];
+    const RigidBody& body = view.system.bodies[b];
     head["shape_of"].push_back(place.at(body.shape.polyhedron));
     grains.insert(grains.end(), {static_cast<float>(body.mass), static_cast<float>(body.volume)});
   }
@@ -198,16 +198,15 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
       const auto [a, b] = contact.body_a < view.system.grain_count
                               ? std::pair(contact.body_a, contact.body_b)
                               : std::pair(contact.body_b, contact.body_a);
-      const RigidBody& body = view.system.bodies[static_cast<size_t>(a)];
+      const RigidBody& body = view.system.bodies[a];
       const double reach = body.is_wall() ? 1.0 : body.shape.polyhedron->circumradius();
       body_a.push_back(static_cast<std::uint16_t>(a - last));
       body_b.push_back(static_cast<std::uint16_t>(b - a));
       last = a;
       const Vec3 place =
-          (contact.position.cast<double>() - frame.pose[static_cast<size_t>(a)].position) /
-          (1.02 * reach);
+          (contact.position.cast<double>() - frame.pose[a].position) / (1.02 * reach);
       for (int i = 0; i < 3; ++i)
-        places[static_cast<size_t>(i)].push_back(
+        places[i].push_back(
             static_cast<std::uint8_t>(128 + std::lround(127.0 * std::clamp(place[i], -1.0, 1.0))));
       const float force = contact.force.dot(contact.normal);
       const double tangential = (contact.force - force * contact.normal).norm();
