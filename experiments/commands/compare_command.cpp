@@ -148,7 +148,6 @@ struct CompareRequest {
   LiveOptions live;
   std::vector<std::string> cases, external;
   ExternalLimits program_limits;
-  std::filesystem::path output = "results/compare";
   CompareOptions comparison;
   bool report = true, is_quiet = false;
 };
@@ -188,12 +187,12 @@ void require_readable(const std::vector<CompareRow>& rows, size_t cases) {
 }
 
 /// The closed loop under each backend.
-ExitCode compare_live(const CompareRequest& options) {
-  LiveOptions live = options.live;
+ExitCode compare_live(CompareRequest& options) {
+  LiveOptions& live = options.live;
   live.solvers = options.comparison.solvers;
   live.tolerances = options.comparison.tolerances;
   live.max_seconds = options.comparison.max_seconds;
-  live.folder = options.output;
+  live.folder = options.comparison.folder;
   if (options.is_quiet) live.style = StatusLine::Style::quiet;
   const auto told = [&](const Trajectory& trajectory) {
     if (!options.is_quiet)
@@ -205,10 +204,10 @@ ExitCode compare_live(const CompareRequest& options) {
   if (InterruptGuard::requested()) throw Error(interrupted);
   Manifest manifest("compare --live " + live.scene, {options.comparison.command}, binary_key());
   manifest.summary("blas", loaded_blas());
-  manifest.write(options.output / "manifest.json");
-  write_live_page(options.output, comparison);
+  manifest.write(live.folder / "manifest.json");
+  write_live_page(live.folder, comparison);
   if (options.is_quiet) return ExitCode::ok;
-  std::cout << "\nresults in " << options.output.string()
+  std::cout << "\nresults in " << live.folder.string()
             << "\n  live.html   figures and the table: open it in a browser\n"
             << "  live.csv    one row per trajectory; steps-*.csv: every step's scalars"
             << std::endl;
@@ -218,7 +217,8 @@ ExitCode compare_live(const CompareRequest& options) {
 ExitCode compare(CompareRequest& options) {
   if (options.cases.empty() == options.live.scene.empty())
     throw UsageError("compare: expected cases, or --live SCENE");
-  require_own_folder(options.output, {"rows", "trajectories", "start", "exact"});
+  const std::filesystem::path& output = options.comparison.folder;
+  require_own_folder(output, {"rows", "trajectories", "start", "exact"});
   if (!options.external.empty() && !options.live.scene.empty())
     throw UsageError("compare: --external: not with --live, whose solver works inside the step");
   options.program_limits.memory_MB = options.comparison.limits.memory_MB;
@@ -232,7 +232,6 @@ ExitCode compare(CompareRequest& options) {
   if (options.comparison.solvers.empty())
     throw UsageError("compare: --solvers none: expected a program that solves, --external");
   restart_with_one_algebra_thread();
-  options.comparison.folder = options.output;
   options.comparison.command = own_command();
   if (!options.live.scene.empty()) return compare_live(options);
   const std::vector<CompareCase> cases = compare_cases(options.cases);
@@ -242,10 +241,10 @@ ExitCode compare(CompareRequest& options) {
   };
   const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, told);
   if (InterruptGuard::requested()) throw Error(interrupted);
-  if (options.report) write_compare_page(options.output, rows);
+  if (options.report) write_compare_page(output, rows);
   if (!options.is_quiet)
     std::cout << '\n'
-              << compare_summary(rows) << "\nresults in " << options.output.string() << "\n"
+              << compare_summary(rows) << "\nresults in " << output.string() << "\n"
               << (options.report ? "  compare.html  figures and tables: open it in a browser\n"
                                  : "")
               << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
@@ -261,6 +260,7 @@ Command compare_command() {
   CompareOptions& comparison = options->comparison;
   LiveOptions& live = options->live;
   comparison.exact_seconds = 5.0;
+  comparison.folder = "results/compare";
   return {
       "compare",
       "Backends on identical problems: accuracy against cost, figures, a page",
@@ -285,7 +285,7 @@ Command compare_command() {
         at_least(0)},
        {"--memory", &comparison.limits.memory_MB, "Address space of one child in MB; 0: no limit",
         at_least(0)},
-       {"--output DIR", &options->output, "Folder of the results"},
+       {"--output DIR", &comparison.folder, "Folder of the results"},
        {"--no-report", &options->report, "No figures and no page"},
        {"--quiet", &options->is_quiet, "Says nothing but failures"},
        {"--live SCENE", &live.scene,

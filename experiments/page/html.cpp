@@ -33,25 +33,22 @@ const char* variable_of(Ink ink) {
   return names[static_cast<size_t>(ink)];
 }
 
-/// Rules that turn one colour of the figures into a variable of the page.
-std::string colour_rules(const std::string& rgb, const std::string& variable) {
-  std::string rules;
-  for (const char* property : {"stroke", "fill", "color"})
-    rules += std::string("svg [") + property + "=\"" + rgb + "\"]{" + property + ":var(" +
-             variable + ")}\n";
-  return rules;
-}
-
-std::string attribute_form(const char* hex) {
-  const long value = std::strtol(hex + 1, nullptr, 16);
-  return printed("rgb(%ld,%ld,%ld)", value >> 16, (value >> 8) & 255, value & 255);
-}
-
+/// Rules that turn the colours of the figures into variables of the page.
 std::string palette_rules() {
-  std::string rules = colour_rules("black", "--ink") + colour_rules("rgb(224,224,224)", "--grid");
-  for (int ink = 0; ink <= static_cast<int>(Ink::light); ++ink)
-    rules +=
-        colour_rules(attribute_form(rgb_of(Ink(ink))), std::string("--") + variable_of(Ink(ink)));
+  std::string rules;
+  const auto add = [&](const std::string& rgb, const char* variable) {
+    for (const char* property : {"stroke", "fill", "color"})
+      rules += std::string("svg [") + property + "=\"" + rgb + "\"]{" + property + ":var(--" +
+               variable + ")}\n";
+  };
+  add("black", "ink");
+  add("rgb(224,224,224)", "grid");
+  for (int k = 0; k <= static_cast<int>(Ink::light); ++k) {
+    const Ink ink = Ink(k);
+    const long value = std::strtol(rgb_of(ink) + 1, nullptr, 16);
+    add(printed("rgb(%ld,%ld,%ld)", value >> 16, (value >> 8) & 255, value & 255),
+        variable_of(ink));
+  }
   return rules;
 }
 

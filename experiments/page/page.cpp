@@ -6,37 +6,12 @@
 #include "platform/error.hpp"
 
 namespace ballast::page {
-namespace {
 
 namespace fs = std::filesystem;
 
-struct Emptiness {
-  bool operator()(const Text& text) const { return text.empty(); }
-  bool operator()(const Subheading& heading) const { return heading.words.empty(); }
-  bool operator()(const List& list) const { return list.items.empty(); }
-  bool operator()(const Table& table) const { return table.rows.empty(); }
-  bool operator()(const Picture& picture) const { return picture.plot.panels.empty(); }
-  bool operator()(const Notices& notices) const { return notices.items.empty(); }
-  bool operator()(const Listing& listing) const { return listing.text.empty(); }
-  bool operator()(const Replay& replay) const { return replay.head.empty(); }
-};
-
-void draw(Picture& picture, const fs::path& folder, const Drawing& drawing) {
-  const std::string& name = picture.plot.name;
-  picture.svg = render_svg(picture.plot, folder);
-  if (!drawing.is_file_shown) return;
-  // on its own the file has white behind it, whatever shows it
-  std::string svg = picture.svg;
-  svg.insert(svg.find('>', svg.find("<svg")) + 1,
-             "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
-  write_whole_file(folder / (name + ".svg"), svg);
-  std::error_code ignored;
-  fs::remove(folder / (name + ".gnuplot"), ignored);
+bool is_empty(const Block& block) {
+  return std::visit([](const auto& one) { return one.empty(); }, block);
 }
-
-}  // namespace
-
-bool is_empty(const Block& block) { return std::visit(Emptiness{}, block); }
 
 void Section::add(const std::vector<Picture>& pictures) {
   blocks.insert(blocks.end(), pictures.begin(), pictures.end());
@@ -64,8 +39,18 @@ void draw_pictures(Page& page, const fs::path& folder, const Drawing& drawing) {
     if (picture.plot.panels.empty()) return false;
     is_any_missing |= !has_gnuplot;
     if (!has_gnuplot) return false;
+    const fs::path figures = folder / picture_folder;
+    const std::string& name = picture.plot.name;
     try {
-      draw(picture, folder / picture_folder, drawing);
+      picture.svg = render_svg(picture.plot, figures);
+      if (!drawing.is_file_shown) return true;
+      // on its own the file has white behind it, whatever shows it
+      std::string svg = picture.svg;
+      svg.insert(svg.find('>', svg.find("<svg")) + 1,
+                 "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");
+      write_whole_file(figures / (name + ".svg"), svg);
+      std::error_code ignored;
+      fs::remove(figures / (name + ".gnuplot"), ignored);
       return true;
     } catch (const Error& error) {
       page.notices.items.push_back(std::string(error.what()) + ". The figure is left out.");

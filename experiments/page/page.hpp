@@ -25,10 +25,12 @@ namespace ballast::page {
 
 struct Subheading {
   Text words;
+  bool empty() const { return words.empty(); }
 };
 
 struct List {
   std::vector<Text> items;
+  bool empty() const { return items.empty(); }
 };
 
 struct Table {
@@ -37,6 +39,7 @@ struct Table {
   std::vector<std::vector<Text>> rows = {};
   std::vector<bool> is_number = {};  ///< columns that are set right-aligned; empty: none
   bool is_facts = false;             ///< rows are {what, value}: the first is narrow and soft
+  bool empty() const { return rows.empty(); }
 };
 
 /// A plot and what is said about it.
@@ -45,12 +48,14 @@ struct Picture {
   std::vector<Text> caption = {};  ///< one line each
   Text files = {};       ///< links to its files, for pages that don't hold the picture themselves
   std::string svg = {};  ///< filled by draw_pictures
+  bool empty() const { return plot.panels.empty(); }
 };
 
 /// What is missing or wrong, loudly.
 struct Notices {
   Text heading = {};
   std::vector<Text> items = {};
+  bool empty() const { return items.empty(); }
 };
 
 /// Text as it stands in a file or for a shell, in a box; under a heading it is closed until the
@@ -58,6 +63,7 @@ struct Notices {
 struct Listing {
   std::string text;
   Text heading = {};
+  bool empty() const { return text.empty(); }
 };
 
 /// Bodies in 3D that move: what experiments/page/replay draws in the reader's browser.
@@ -67,6 +73,7 @@ struct Replay {
   std::vector<std::pair<std::string, std::string>> parts = {};  ///< name and raw bytes
   std::string still = {};  ///< PNG: shown where the browser cannot draw, and in print
   Text caption = {};
+  bool empty() const { return head.empty(); }
 };
 
 /// A paragraph is Text.

@@ -64,20 +64,6 @@ std::vector<double> minor_log_ticks(const Extent& extent) {
   return ticks;
 }
 
-/// Ticks of a logarithmic axis: 1, 2, 5 of every decade, only the powers of ten where there are
-/// many decades. Within the extent.
-std::vector<double> log_ticks(const Extent& extent) {
-  const double decades = std::log10(extent.high / extent.low);
-  constexpr double many = 3.0;
-  std::vector<double> ticks = minor_log_ticks(extent);
-  // the first digit of each decides; over less than half a decade all are numbered
-  std::erase_if(ticks, [&](double tick) {
-    const long digit = std::lround(tick / std::pow(10.0, std::floor(std::log10(tick * 1.0001))));
-    return decades >= many ? digit != 1 : decades > 0.5 && digit != 1 && digit != 2 && digit != 5;
-  });
-  return ticks;
-}
-
 /// Of all curves, error bars and reference lines of a panel, padded; the panel's own limits where
 /// it has them. Throws std::invalid_argument when there is nothing to show.
 Extent y_extent(const Panel& panel) {
@@ -257,8 +243,17 @@ std::string reference(const ReferenceLine& line) {
 }
 
 /// The ticks of a logarithmic axis ('x' or 'y'): with numbers at `numbered`, small ones between.
+/// Empty: at 1, 2, 5 of every decade, only the powers of ten where there are many decades.
 std::string log_axis(char axis, const Extent& extent, std::vector<double> numbered) {
-  if (numbered.empty()) numbered = log_ticks(extent);
+  if (numbered.empty()) {
+    numbered = minor_log_ticks(extent);
+    // the first digit of each decides; over less than half a decade all are numbered
+    const double decades = std::log10(extent.high / extent.low);
+    std::erase_if(numbered, [&](double tick) {
+      const long digit = std::lround(tick / std::pow(10.0, std::floor(std::log10(tick * 1.0001))));
+      return decades >= 3.0 ? digit != 1 : decades > 0.5 && digit != 1 && digit != 2 && digit != 5;
+    });
+  }
   std::string list;
   for (const double tick : numbered) list += (list.empty() ? "" : ", ") + script_number(tick);
   for (const double tick : minor_log_ticks(extent)) list += ", '' " + script_number(tick) + " 1";

@@ -56,7 +56,7 @@ struct SystemTables {
   }
 };
 
-SystemTables tables_of(const MechanicalSystem& system) {
+void add_system(Hdf5Writer& file, const MechanicalSystem& system) {
   SystemTables tables;
   std::map<const Polyhedron*, std::int32_t> shape_index;
   for (const auto& pointer : system.shapes) {
@@ -83,11 +83,6 @@ SystemTables tables_of(const MechanicalSystem& system) {
     // bodies that share a shape name the same one
     tables.shape.push_back(body.is_wall() ? -1 : shape_index.at(body.shape.polyhedron));
   }
-  return tables;
-}
-
-void add_system(Hdf5Writer& file, const MechanicalSystem& system) {
-  SystemTables tables = tables_of(system);
   file.add_group("bodies");
   file.add_group("shapes");
   file.add("bodies/name", tables.name);
