@@ -49,10 +49,10 @@ std::string command_that_goes_on() {
 
 /// Draws the run's page where it is asked for or missing, and says what is where and what can be
 /// done next.
-void show_results(const RunEnd& end, const RunOptions& options, bool with_page) {
-  const bool has_page = is_there(end.folder / "report.html");
+void show_results(const RunEnd& end, const RunRequest& request, bool has_grains) {
+  const bool with_page = request.with_page, has_page = is_there(end.folder / "report.html");
   if (with_page && (!end.was_finished || !has_page)) write_report(end.folder);
-  if (end.was_finished || options.style == Progress::Style::quiet) return;
+  if (end.was_finished || request.run.style == Progress::Style::quiet) return;
   std::cout << "\nresults in " << end.folder.string() << "\n";
   if (with_page)
     std::cout << "  report.html   figures and the table of the run: open it in a browser\n";
@@ -61,12 +61,11 @@ void show_results(const RunEnd& end, const RunOptions& options, bool with_page) 
   if (is_there(end.folder / "capture"))
     std::cout << "  capture/      friction problems of steps, for ballast compare\n";
   std::cout << "  manifest.json machine, commit, parameters, summary\n\nwhat next\n"
-            << next_commands(end.has_grains) << std::flush;
+            << next_commands(has_grains) << std::flush;
 }
 
 /// What the user must know of a run that is finished. Strict: only a clean one is a success.
-ExitCode tell_trust(const RunEnd& end, const RunRequest& request) {
-  const RunData data = read_run_data(end.folder);
+ExitCode tell_trust(const RunData& data, const RunRequest& request) {
   const RunSummary run = summarise(data.steps, data.facts);
   const bool is_failure = request.strict && !is_clean(run);
   if (is_failure || request.run.style != Progress::Style::quiet) {
@@ -89,8 +88,9 @@ ExitCode run_scene(RunRequest& request) {
   const RunEnd end = run(request.run);
   ExitCode code = end.code;
   if (code == ExitCode::ok && !request.run.deposit_only) {
-    show_results(end, request.run, request.with_page);
-    code = tell_trust(end, request);
+    const RunData data = read_run_data(end.folder);
+    show_results(end, request, data.facts.has_packing);
+    code = tell_trust(data, request);
   }
   if (end.code != ExitCode::ok)
     std::cerr << "ballast: " << request.run.scene

@@ -363,6 +363,7 @@ MechanicalSystem read_record_system(const std::filesystem::path& path) {
     body.volume = tables.volume[b];
     body.inertia = Vec3(tables.inertia.data() + 3 * b);
     body.shape.plane.normal = Vec3(tables.wall_normal.data() + 3 * b);
+    if (tables.shape[b] < 0 && body.mass > 0.0) body.wall.motion = WallMotion::driven;
     const int shape = tables.shape[b];
     if (shape >= static_cast<int>(system.shapes.size()))
       file.fail("bodies/shape[" + std::to_string(b) + "] names no shape");

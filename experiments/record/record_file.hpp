@@ -112,7 +112,8 @@ class RecordForces {
 };
 
 /// Bodies, walls and shapes as they were in the run that a record.h5 is of, whatever has become of
-/// the files from which its scene had them. Gravity and friction are not in it. Throws Error.
+/// the files from which its scene had them. The wall with a mass is the driven one; gravity and
+/// friction are not in it. Throws Error.
 MechanicalSystem read_record_system(const std::filesystem::path& record);
 
 }  // namespace ballast

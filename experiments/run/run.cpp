@@ -74,7 +74,6 @@ class Run {
   RunEnd execute() {
     RunEnd end;
     end.folder = folder_.path();
-    end.has_grains = scene_.grains.has_value();
     if (options_.deposit_only) {
       end.code = deposit_only();
     } else if (!open_folder()) {

@@ -38,7 +38,6 @@ struct RunEnd {
   ExitCode code = ExitCode::ok;
   std::filesystem::path folder;  ///< of the run
   bool was_finished = false;     ///< all of its steps were there before: nothing was done
-  bool has_grains = false;       ///< a vibrated box, not only single bodies
 };
 
 /// Runs to the end, to the time limit, or to a signal that InterruptGuard catches (checkpoint, then

@@ -106,7 +106,7 @@ inline constexpr const char* steps_left_entry = "steps_left";
 MechanicalSystem system_of_run(const std::filesystem::path& folder, MotionState& state);
 
 /// The same for looking at, not for stepping: bodies, walls and shapes come from record.h5 where
-/// there is one, whatever has become of the scene's files. How walls move is not in it.
+/// there is one, whatever has become of the scene's files. Which wall is driven is in it, not how.
 MechanicalSystem recorded_system(const std::filesystem::path& folder, MotionState& state);
 
 }  // namespace ballast

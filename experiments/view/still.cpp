@@ -329,7 +329,8 @@ class Camera {
       const Pose& pose = view_.frames[frame].pose[b];
       const Vec3 normal = pose.rotation * view_.system.bodies[b].shape.plane.normal;
       const std::vector<Vec3> loop = plane_in_box(pose.position, normal, box_);
-      if (loop.size() >= 3) use(loop, normal, static_cast<int>(b) == view_.driven_wall);
+      if (loop.size() >= 3)
+        use(loop, normal, static_cast<int>(b) == view_.system.first_driven_wall());
     }
   }
 

@@ -27,17 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr size_t most_rows = 6000;  // of the curves: more than a screen has columns
 
-/// The record does not say which wall is driven: the scene does.
-int driven_wall_of(const RunData& run, const MechanicalSystem& system) {
-  if (!run.scene) return -1;
-  std::string name = run.scene->grains ? "x_max" : "";
-  for (const WallSpec& wall : run.scene->walls)
-    if (wall.motion == WallMotion::driven) name = wall.name;
-  for (size_t b = static_cast<size_t>(system.grain_count); b < system.bodies.size(); ++b)
-    if (system.bodies[b].name == name) return static_cast<int>(b);
-  return -1;
-}
-
 void add_curves(const RunData& run, ViewData& view) {
   const size_t stride = (run.steps.size() + most_rows - 1) / most_rows;
   // every stride-th row, in the reader's unit
@@ -48,7 +37,7 @@ void add_curves(const RunData& run, ViewData& view) {
   };
   for (size_t k = 0; k < run.steps.size(); k += stride)
     view.series_time.push_back(run.steps[k].time);
-  if (view.driven_wall >= 0) {
+  if (view.system.first_driven_wall() >= 0) {
     double largest = 0.0;
     for (const StepRecord& step : run.steps) largest = std::max(largest, std::abs(step.load));
     const double factor = largest >= 1000.0 ? 1e-3 : 1.0;
@@ -231,7 +220,6 @@ std::optional<ViewData> view_of_run(const RunData& run) {
       view.contacts = [forces](size_t frame) { return forces->of_frame(frame); };
   }
   if (run.scene) view.title = run.scene->title;
-  view.driven_wall = driven_wall_of(run, view.system);
   add_curves(run, view);
   return view;
 }
@@ -251,7 +239,6 @@ ViewData view_of_scene(const Scene& scene, const fs::path& packing_cache) {
                             : box_system(scene, rain, BoxStage::rain, rain.height, &state);
     view.title += is_packed ? ": the packing" : ": the rain before the deposit";
   }
-  view.driven_wall = view.system.first_driven_wall();
   view.frames = {state};
   return view;
 }

@@ -38,13 +38,12 @@ struct ViewErrors {
 
 struct ViewData {
   std::string title;
-  MechanicalSystem system;
+  MechanicalSystem system;          ///< its driven wall moves as the series "x" says, outward [mm]
   bool has_shapes = true;           ///< false: bodies are drawn about what is known of them
   std::vector<MotionState> frames;  ///< at least one
   /// Those with a force of a frame, by its number; empty: none are known. A run's are read when
   /// they are asked for.
   std::function<std::vector<FrameContact>(size_t frame)> contacts;
-  int driven_wall = -1;  ///< moves as the series "x" says, outward [mm]; -1: none
   std::vector<double> series_time;
   std::vector<ViewSeries> series;
   std::vector<ViewPlot> plots;

@@ -168,7 +168,7 @@ void pack_walls(const ViewData& view, const std::vector<size_t>& chosen, Json& h
     const Vec3 normal = view.frames[chosen.front()].pose[b].rotation * body.shape.plane.normal;
     head["walls"].push_back({{"name", body.name},
                              {"normal", {normal.x(), normal.y(), normal.z()}},
-                             {"driven", static_cast<int>(b) == view.driven_wall}});
+                             {"driven", static_cast<int>(b) == view.system.first_driven_wall()}});
     for (const size_t f : chosen)
       for (const Vec3& part : {view.frames[f].pose[b].position, view.frames[f].velocity[b]})
         values.insert(values.end(), part.begin(), part.end());

@@ -51,8 +51,8 @@ class Plots {
     const series = plot.series.map((name) => this.data.series[name]);
     const over = plot.over ? this.data.series[plot.over] : null;
     const across = over ? over.values : this.data.seriesTime;
-    const range = (values, isTime) => {
-      let low = isTime ? values[0] : Infinity, high = -Infinity;
+    const range = (values) => {
+      let low = Infinity, high = -Infinity;
       for (const v of values)
         if (Number.isFinite(v)) [low, high] = [Math.min(low, v), Math.max(high, v)];
       return high > low ? [low, high] : [low - 0.5, low + 0.5];

@@ -114,7 +114,7 @@ TEST_CASE("several frames are an animated PNG, in which the driven wall moves") 
   MotionState after = before;
   after.pose[6].position.x() -= 0.2;
   ViewData view = view_of(system, {before, after});
-  view.driven_wall = 6;
+  view.system.bodies[6].wall.motion = WallMotion::driven;
   const StillOptions options = small_still("y");
   const auto chunks = chunks_of(still_png(view, {0, 1}, options));
   std::string names;

@@ -44,14 +44,14 @@ TEST_CASE("a driven wall is known and has its curves, in mm") {
   const RunData run = finished_run(folder, "empty_driven_wall", {"scene.duration=0.05"});
   const auto view = view_of_run(run);
   REQUIRE(view);
-  REQUIRE(view->driven_wall >= 0);
+  const int wall = view->system.first_driven_wall();
+  REQUIRE(wall >= 0);
   const ViewSeries* x = series_of(*view, "x");
   REQUIRE(x);
   CHECK(series_of(*view, "f"));
   CHECK(view->series_time.size() == x->values.size());
   CHECK(x->values.back() == 1e3 * run.steps.back().wall_x);
   // and the frames agree with the curve: the wall stands at its start - normal x
-  const auto wall = static_cast<size_t>(view->driven_wall);
   const Vec3 way = view->frames.back().pose[wall].position - view->frames[0].pose[wall].position;
   CHECK(std::abs(way.norm() - std::abs(run.steps.back().wall_x)) < 1e-12);
 }
@@ -61,7 +61,7 @@ TEST_CASE("bodies without a driven wall have the energy's curve, and forces wher
   const std::vector<std::string> shorter{"scene.duration=0.03", "record.forces=true"};
   const auto view = view_of_run(finished_run(folder, "incline", shorter));
   REQUIRE(view);
-  CHECK(view->driven_wall == -1);
+  CHECK(view->system.first_driven_wall() == -1);
   CHECK((series_of(*view, "energy") && !series_of(*view, "x")));
   REQUIRE(view->contacts);
   CHECK_FALSE(view->contacts(view->frames.size() - 1).empty());

@@ -13,7 +13,7 @@ ViewData sample_view(size_t frames) {
   ViewData view;
   view.title = "a </script> in words";
   view.system = sample_system();
-  view.driven_wall = 6;
+  view.system.bodies[6].wall.motion = WallMotion::driven;
   for (size_t f = 0; f < frames; ++f) {
     const MotionState state = sample_state(view.system, static_cast<long>(50 * f));
     view.frames.push_back({state.time, state.step, state.pose, state.velocity, state.spin});
