@@ -129,8 +129,7 @@ ExitCode run_planned(PlanRequest options) {
     return ExitCode::ok;
   }
   if (!options.snakemake.empty()) {
-    write_snakemake({plan.name, select(plan, options.running.only)}, options.running.results,
-                    own_program(), options.snakemake);
+    write_snakemake(plan, options.plan, options.running, own_program(), options.snakemake);
     std::cout << "cd " << shell_word(fs::absolute(options.snakemake).string())
               << "\n  snakemake -s Snakefile --profile slurm   on a cluster with Slurm\n"
               << "  snakemake -s Snakefile --cores 4         on this machine" << std::endl;

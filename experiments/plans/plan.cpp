@@ -6,7 +6,6 @@
 #include <fnmatch.h>
 
 #include "experiments/box/vibrated_box.hpp"
-#include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
@@ -31,20 +30,6 @@ PlannedRun planned_run(const std::string& name, const std::string& text,
   run.packing_work = bodies * ((rain_time + deposit.lid_time) / deposit.step +
                                deposit.settle_time / deposit.settle_step);
   return run;
-}
-
-void write_plan(const Plan& plan, const fs::path& file) {
-  toml::array runs;
-  for (const PlannedRun& run : plan.runs) {
-    toml::array set;
-    for (const std::string& text : run.overrides) set.push_back(text);
-    // a path is relative to the plan's file when it is read
-    const bool is_path = is_file(run.scene);
-    const std::string scene =
-        is_path ? fs::absolute(run.scene).lexically_normal().string() : run.scene;
-    runs.push_back(toml::table{{"name", run.name}, {"scene", scene}, {"set", std::move(set)}});
-  }
-  write_whole_file(file, toml_text(toml::table{{"name", plan.name}, {"run", std::move(runs)}}));
 }
 
 std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern) {

@@ -34,10 +34,6 @@ struct Plan {
 /// for a run that is not a valid scene.
 Plan read_plan(const std::filesystem::path& file);
 
-/// The plan as a file that read_plan reads to the same plan: every run written out. Throws Error
-/// when it cannot be written.
-void write_plan(const Plan& plan, const std::filesystem::path& file);
-
 /// The runs of the plan that a shell's pattern names; all of them where it is empty. Throws
 /// SceneFileError when there are none.
 std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern);

@@ -84,16 +84,17 @@ ExitCode run_plan(const Plan& plan, const PlanOptions& options);
 /// Writes into `folder`:
 ///   Snakefile           one job per packing, then one per run; each calls the ballast program and
 ///                       may die and be started again
-///   runs.json           what the jobs call
-///   plan.toml           the plan itself: the last rule asks `ballast plan` whether everything is
-///                       finished, and writes index.csv
+///   runs.json           what the jobs call; the last one is `ballast plan` with the plan's file,
+///                       which sees that everything is finished, and writes index.csv
 ///   slurm/config.yaml   Snakemake's options (version 7) for Slurm
 ///   slurm/status.sh     what became of a job
 ///
-/// Paths are absolute: the folders of the results and of this one, and `program`, must be the same
-/// on all machines. Throws SceneFileError and Error.
-void write_snakemake(const Plan& plan, const std::filesystem::path& results,
-                     const std::filesystem::path& program, const std::filesystem::path& folder);
+/// Of `options` the results and the runs to do. Paths are absolute: the folders of the results and
+/// of this one, the plan's file and `program` must be the same on all machines. Throws
+/// SceneFileError and Error.
+void write_snakemake(const Plan& plan, const std::filesystem::path& file,
+                     const PlanOptions& options, const std::filesystem::path& program,
+                     const std::filesystem::path& folder);
 
 /// How far a plan is, on one line: "37 %  0 of 2 runs, 1 running". Runs that go on count by the
 /// steps in their logs, `work_before` is what was done when the plan was taken up, `seconds` ago.

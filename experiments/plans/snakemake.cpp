@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 /// What the Snakefile reads: the arguments of every job, by packing and by run.
 Json jobs_json(const std::vector<PlannedRun>& runs, const fs::path& results,
-               const fs::path& program, const fs::path& folder) {
+               const fs::path& program, const Json& finish) {
   Json packings = Json::object(), jobs = Json::object();
   for (const PlannedRun& run : runs) {
     if (!run.packing.empty() && !packings.contains(run.packing))
@@ -26,7 +26,6 @@ Json jobs_json(const std::vector<PlannedRun>& runs, const fs::path& results,
     jobs[run.key] = {
         {"name", run.name}, {"packing", run.packing}, {"arguments", run_arguments(results, run)}};
   }
-  const Json finish{"plan", (folder / "plan.toml").string(), "--output", results.string()};
   return {{"program", program.string()},
           {"results", results.string()},
           {"finish", finish},
@@ -36,13 +35,15 @@ Json jobs_json(const std::vector<PlannedRun>& runs, const fs::path& results,
 
 }  // namespace
 
-void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::path& program,
-                     const fs::path& folder_given) {
-  const fs::path results = fs::absolute(results_given).lexically_normal(),
-                 folder = fs::absolute(folder_given).lexically_normal();
-  Plan absolute = plan;  // jobs begin elsewhere
-  for (PlannedRun& run : absolute.runs)
-    run.scene = fs::absolute(find_scene(run.scene)).lexically_normal();
+void write_snakemake(const Plan& plan, const fs::path& file, const PlanOptions& options,
+                     const fs::path& program, const fs::path& folder_given) {
+  // absolute: jobs begin elsewhere
+  const auto absolute = [](const fs::path& path) { return fs::absolute(path).lexically_normal(); };
+  const fs::path results = absolute(options.results), folder = absolute(folder_given);
+  std::vector<PlannedRun> runs = select(plan, options.only);
+  for (PlannedRun& run : runs) run.scene = absolute(find_scene(run.scene));
+  Json finish{"plan", absolute(file).string(), "--output", results.string()};
+  if (!options.only.empty()) finish.insert(finish.end(), {"--only", options.only});
   if (folder.string().find_first_of(" \t\n\"'{}%\\$`&;|<>()*?[]") != std::string::npos)
     throw Error(folder.string() +
                 ": stands in commands for a shell and Snakemake: expected a path without blanks, "
@@ -56,8 +57,7 @@ void write_snakemake(const Plan& plan, const fs::path& results_given, const fs::
   fs::permissions(status, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                   fs::perm_options::add);
   for (const char* name : {"runs", "packings", "logs", "snakemake"}) create_folder(results / name);
-  write_plan(absolute, folder / "plan.toml");
-  const Json jobs = jobs_json(absolute.runs, results, program, folder);
+  const Json jobs = jobs_json(runs, results, program, finish);
   write_whole_file(folder / "runs.json",
                    jobs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   write_whole_file(folder / "Snakefile", cluster_file("Snakefile"));

@@ -73,16 +73,6 @@ set = ["scene.duration=1"]
   CHECK(select(plan, "nu-*name=pgs").size() == 2);
   CHECK(select(plan, "").size() == 6);
   CHECK_THROWS_AS(select(plan, "mu-*"), SceneFileError);
-
-  write_plan(plan, folder.path() / "again.toml");
-  const Plan again = read_plan(folder.path() / "again.toml");
-  CHECK(again.name == plan.name);
-  REQUIRE(again.runs.size() == plan.runs.size());
-  for (size_t k = 0; k < plan.runs.size(); ++k) {
-    CHECK(again.runs[k].name == plan.runs[k].name);
-    CHECK(again.runs[k].overrides == plan.runs[k].overrides);
-    CHECK(again.runs[k].key == plan.runs[k].key);
-  }
 }
 
 TEST_CASE("a scene's file is looked for beside the plan") {
