@@ -29,7 +29,7 @@ class SteppedScene {
       prepare_run(scene_, {packings, goes_on, StatusLine::Style::quiet}, manifest, run_);
     }
     if (is_interrupted) throw py::error_already_set();
-    stepper_ = std::make_unique<TimeStepper>(run_.system, scene_, run_.driven_wall);
+    stepper_ = std::make_unique<TimeStepper>(run_.system, scene_, run_.system.first_driven_wall());
   }
 
   /// Steps `count` times; calls back after each, and stops where that returns False.

@@ -45,7 +45,6 @@ bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manife
   } else {
     run.system = make_system(scene, run.state);
   }
-  run.driven_wall = run.system.first_driven_wall();
   return true;
 }
 
@@ -182,7 +181,7 @@ class Run {
   /// record.checkpoint_seconds and at the end, whatever ends it; records are made safe before it,
   /// so that they never lack what it has.
   ExitCode step_on(Recorder& recorder) {
-    TimeStepper stepper(run_.system, scene_, run_.driven_wall);
+    TimeStepper stepper(run_.system, scene_, run_.system.first_driven_wall());
     Progress progress(options_.style);
     StepCapture capture(options_.capture, folder_.capture(), scene_.step, scene_.gravity.norm());
     const RecordSpec& spec = scene_.record;

@@ -56,7 +56,6 @@ struct PreparedRun {
   MechanicalSystem system;
   MotionState state;
   StepMemory memory;
-  int driven_wall = -1;
   std::optional<ControlVolume> control_volume;  ///< of the vibrated box
 };
 

@@ -163,21 +163,18 @@ void Manifest::write(const fs::path& file) const { write_whole_file(file, text()
 
 namespace {
 
-/// What a run writes: files of this pattern in this folder of its own.
-struct RunFile {
-  const char *folder, *pattern;
-};
-constexpr RunFile run_files[] = {{"log", "steps.bin"},
-                                 {"log", "poses.bin"},
-                                 {"log", "forces.bin"},
-                                 {"capture", "step_[0-9]*.hdf5"},
-                                 {"states", "step_[0-9]*.bin"},
-                                 {"", "checkpoint.bin"},
-                                 {"", "steps.csv"},
-                                 {"", "record.h5"},
-                                 {"", "report.html"},
-                                 {"", "scene.toml"},
-                                 {"", "manifest.json"}};
+/// What a run writes: folders of its own, and the files in them as patterns.
+constexpr std::pair<const char*, const char*> run_files[] = {{"log", "steps.bin"},
+                                                             {"log", "poses.bin"},
+                                                             {"log", "forces.bin"},
+                                                             {"capture", "step_[0-9]*.hdf5"},
+                                                             {"states", "step_[0-9]*.bin"},
+                                                             {"", "checkpoint.bin"},
+                                                             {"", "steps.csv"},
+                                                             {"", "record.h5"},
+                                                             {"", "report.html"},
+                                                             {"", "scene.toml"},
+                                                             {"", "manifest.json"}};
 
 /// What may be in a folder before its run has begun: a run that was killed meanwhile leaves it.
 constexpr std::string_view beginnings[] = {"run.lock", "manifest.json", "manifest.json.tmp",
@@ -212,14 +209,13 @@ void clear_figures(const fs::path& folder) {
 void clear(const fs::path& run) {
   std::error_code none;
   clear_figures(run / "figures");
-  for (const RunFile& file : run_files) {
-    const fs::path folder = run / file.folder;
+  for (const auto& [own, pattern] : run_files) {
+    const fs::path folder = run / own;
     std::vector<fs::path> found;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-      if (fnmatch(file.pattern, entry.path().filename().c_str(), 0) == 0)
-        found.push_back(entry.path());
+      if (fnmatch(pattern, entry.path().filename().c_str(), 0) == 0) found.push_back(entry.path());
     for (const fs::path& path : found) fs::remove(path);
-    if (*file.folder && !found.empty()) fs::remove(folder, none);
+    if (*own && !found.empty()) fs::remove(folder, none);
   }
 }
 

@@ -71,17 +71,6 @@ Curve fit_curve(const RunSummary& summary, double factor) {
   return curve;
 }
 
-page::Text fit_caption(const ForceLaw& law) {
-  return page::words("run.fig04.fits",
-                     {{"amplitude", page::quantity(law.active.amplitude, "N")},
-                      {"length", page::quantity(1e3 / law.active.rate, "mm")},
-                      {"active", page::number(law.active.r2)},
-                      {"line", page::number(law.active_line.r2)},
-                      {"offset", page::quantity(law.passive.offset, "N")},
-                      {"slope", page::quantity(-1e-3 * law.passive.slope, "N/mm")},
-                      {"passive", page::number(law.passive.r2)}});
-}
-
 /// One quantity of the wall at all steps, and at the jammed ones, on a logarithmic axis.
 Panel jammed_panel(const RunData& data, const WallCycles& cycles, const std::vector<double>& all,
                    const char* label, double highest_end) {
@@ -312,7 +301,16 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
       "run.fig04.paper",
       {{"periods", page::exact(static_cast<double>(cycles.loop_last - cycles.loop_first))},
        {"smoothing", page::exact_quantity(1e3 * cycles.smoothing, "ms")}});
-  if (has_fits) caption += fit_caption(summary.law);
+  const ForceLaw& law = summary.law;
+  if (has_fits)
+    caption +=
+        page::words("run.fig04.fits", {{"amplitude", page::quantity(law.active.amplitude, "N")},
+                                       {"length", page::quantity(1e3 / law.active.rate, "mm")},
+                                       {"active", page::number(law.active.r2)},
+                                       {"line", page::number(law.active_line.r2)},
+                                       {"offset", page::quantity(law.passive.offset, "N")},
+                                       {"slope", page::quantity(-1e-3 * law.passive.slope, "N/mm")},
+                                       {"passive", page::number(law.passive.r2)}});
   if (std::abs(summary.net.mean) > 0.05 * summary.rise.mean)
     caption += page::words("run.fig04.side_by_side");
   return run_picture("fig04", 580, {panel}, caption);

@@ -38,15 +38,14 @@ class Replay {
       listenToKeys(canvas, this);
     }
     this.set({});
-    const observer = new ResizeObserver(() => {
+    const layOut = () => {
       this.plots.layOut(this.colours);
       this.set({});
-    });
-    observer.observe(part("stage"));
+    };
+    new ResizeObserver(layOut).observe(part("stage"));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       this.readStyle();
-      this.plots.layOut(this.colours);
-      this.set({});
+      layOut();
     });
     // what nobody sees is not drawn
     this.isSeen = true;
