@@ -119,21 +119,10 @@ struct ViewOptions {
   fs::path output, packing_cache = "results/packings";
   std::vector<std::string> overrides;
   ErrorQuestion question;
-  int iterations = 1000;
   bool open = false;
 };
 
-/// 1, 3, 10, 30, ... up to the most.
-std::vector<int> budgets_up_to(int most) {
-  std::vector<int> budgets;
-  for (int power = 1; power < most; power *= 10)
-    for (const int budget : {power, 3 * power})
-      if (budget < most) budgets.push_back(budget);
-  budgets.push_back(most);
-  return budgets;
-}
-
-ViewData view_of(ViewOptions options) {
+ViewData view_of(const ViewOptions& options) {
   const fs::path path = options.thing;
   const std::string suffix = path.extension().string();
   if (RunFolder(path).has_run()) return run_view(path);
@@ -144,7 +133,6 @@ ViewData view_of(ViewOptions options) {
                   ": does not say where its contacts are, so there is nothing to show in 3D; "
                   "problems of ballast run --capture do");
     for (const std::string& name : options.question.backends) find_solver(name);
-    options.question.iterations = budgets_up_to(options.iterations);
     return view_of_problem(path, options.question);
   }
   return view_of_scene(read_scene(find_scene(options.thing), options.overrides),
@@ -210,7 +198,7 @@ Command view_command() {
        {"--open", &options->open, "Opens it in the browser (xdg-open)"},
        {"--solver NAME", &options->question.backends,
         "Of a captured problem: the backends whose errors are shown"},
-       {"--iterations N", &options->iterations,
+       {"--iterations N", &options->question.most_iterations,
         "Of a captured problem: the largest budget; 1, 3, 10, 30, ... below it are shown too",
         between(1, 100000)},
        {"--warm", &options->question.is_warm,

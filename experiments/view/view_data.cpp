@@ -164,10 +164,13 @@ ViewErrors errors_of(const CapturedProblem& captured, const std::string& backend
                      const ErrorQuestion& question) {
   ViewErrors errors;
   errors.backend = backend;
-  errors.iterations = question.iterations;
+  for (int power = 1; power < question.most_iterations; power *= 10)
+    for (const int budget : {power, 3 * power})
+      if (budget < question.most_iterations) errors.iterations.push_back(budget);
+  errors.iterations.push_back(question.most_iterations);
   const auto solver = make_solver(backend);
   SolverRunner runner;
-  for (const int iterations : question.iterations) {
+  for (const int iterations : errors.iterations) {
     // a tolerance that nobody reaches: the budget alone ends a solve
     const Budget budget{.tolerance = 1e-14 * captured.velocity_scale(),
                         .max_iterations = iterations};

@@ -67,11 +67,11 @@ size_t nearest_frame(const std::vector<MotionState>& frames, double time);
 
 // A captured problem in space: where answers to it are wrong.
 
-/// The backends that are asked, how many iterations each may take (growing), and from where they
-/// begin.
+/// The backends that are asked, how many iterations each may take at most (and 1, 3, 10, 30, ... of
+/// them), and from where they begin.
 struct ErrorQuestion {
   std::vector<std::string> backends = {"pgs", "auto"};
-  std::vector<int> iterations = {1, 3, 10, 30, 100, 300, 1000};
+  int most_iterations = 1000;
   bool is_warm = false;  ///< from the captured start; else from zero
 };
 

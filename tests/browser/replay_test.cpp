@@ -177,7 +177,7 @@ TEST_CASE("two backends' errors stand side by side, and the worst contact is fou
   const TemporaryFolder place;
   const fs::path file = captured_run(place.path() / "run");
   const ViewData view =
-      view_of_problem(file, {.backends = {"pgs", "auto"}, .iterations = {1, 10, 100}});
+      view_of_problem(file, {.backends = {"pgs", "auto"}, .most_iterations = 100});
   write_view_page(view, place.path() / "errors.html");
   Browser browser(900, 700);
   browser.open(place.path() / "errors.html", "", is_ready);
@@ -207,7 +207,7 @@ TEST_CASE("what is most wrong stands out from a light and a dark ground") {
   if (Browser::is_missing()) return;
   const TemporaryFolder place;
   const fs::path file = captured_run(place.path() / "run");
-  write_view_page(view_of_problem(file, {.backends = {"pgs"}, .iterations = {1}}),
+  write_view_page(view_of_problem(file, {.backends = {"pgs"}, .most_iterations = 1}),
                   place.path() / "errors.html");
   for (const bool is_dark : {false, true}) {
     Browser browser(900, 700, is_dark);
