@@ -117,12 +117,9 @@ void Recorder::add_step(const StepRecord& record) {
   steps_->append(row_);
 }
 
-void Recorder::add_poses(const MotionState& state) {
+void Recorder::add_frame(const MotionState& state, const StepMemory& memory, double h) {
   pack_pose_row(state, row_);
   poses_->append(row_);
-}
-
-void Recorder::add_forces(const MotionState& state, const StepMemory& memory, double h) {
   // What is there before the first step belongs to no step of this run.
   if (!forces_ || state.step == 0) return;
   for (size_t c = 0; c < memory.contacts.size(); ++c) {

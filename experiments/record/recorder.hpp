@@ -26,10 +26,9 @@ class Recorder {
 
   /// One call per step: row k is step k + 1.
   void add_step(const StepRecord& row);
-  void add_poses(const MotionState& state);
-  /// The contacts of the frame that was added last, with the impulses of its step [N s], which is
-  /// `h` long [s]. Nothing where forces are not asked for.
-  void add_forces(const MotionState& state, const StepMemory& memory, double h);
+  /// A stored frame and, where forces are asked for, its contacts with the impulses of its step
+  /// [N s], which is `h` long [s].
+  void add_frame(const MotionState& state, const StepMemory& memory, double h);
   /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws
   /// Error, for instance on a full disk.
   void flush();

@@ -189,10 +189,7 @@ class Run {
                state_every = steps_between(spec.state_rate, scene_.step);
     if (state_every > 0) create_folder(folder_.states());
     const auto is_due = [&](long every) { return every > 0 && run_.state.step % every == 0; };
-    const auto store_frame = [&] {
-      recorder.add_poses(run_.state);
-      recorder.add_forces(run_.state, run_.memory, scene_.step);
-    };
+    const auto store_frame = [&] { recorder.add_frame(run_.state, run_.memory, scene_.step); };
     const auto save = [&](const std::filesystem::path& file) {
       write_checkpoint(file, {resolved_.key, "drive", run_.state, run_.memory, {}});
     };

@@ -176,8 +176,7 @@ TEST_CASE("a series: files for ParaView with their times, and the contacts of a 
   }
   Recorder recorder(folder.path(), system, 0, true);
   for (const MotionState& state : states) {
-    recorder.add_poses(state);
-    recorder.add_forces(state, memory, 2e-4);
+    recorder.add_frame(state, memory, 2e-4);
   }
   recorder.finish("", "");
   const RecordForces forces(folder.path() / "record.h5");

@@ -220,8 +220,7 @@ TEST_CASE("a record takes the same memory however long its run was") {
     for (long step = 1; step <= frames; ++step) {
       const MotionState state = sample_state(system, step);
       recorder.add_step(sample_row(step));
-      recorder.add_poses(state);
-      recorder.add_forces(state, memory, 1e-4);
+      recorder.add_frame(state, memory, 1e-4);
     }
     return peak_memory([&] { recorder.finish("", ""); });
   };
@@ -235,8 +234,7 @@ TEST_CASE("record.h5 has the contacts and forces of every stored frame, where th
   StepMemory memory = sample_memory(2);
   memory.impulses[0] = Vec3::Zero();
   const MotionState state = sample_state(open.system, 25);
-  open.recorder.add_poses(state);
-  open.recorder.add_forces(state, memory, sample_step);
+  open.recorder.add_frame(state, memory, sample_step);
   open.recorder.finish("", "");
   const fs::path record = open.path() / "record.h5";
   const Hdf5Reader file(record);

@@ -28,8 +28,7 @@ inline void record(Recorder& recorder, const MechanicalSystem& system, long firs
     if (step > 0) recorder.add_step(sample_row(step));
     if (step % 5 != 0) continue;
     const MotionState state = sample_state(system, step);
-    recorder.add_poses(state);
-    recorder.add_forces(state, sample_memory(step), sample_step);
+    recorder.add_frame(state, sample_memory(step), sample_step);
   }
 }
 
