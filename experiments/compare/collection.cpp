@@ -76,8 +76,7 @@ ExitCode make_collection(const fs::path& folder, std::span<const CollectedRun> r
     options.output = folder / "runs" / wanted.name;
     options.packing_cache = folder / "packings";
     options.resume = true;
-    options.capture =
-        CaptureSettings::parse(printed("every=95,steps=1,also=%d", settling_step));
+    options.capture = CaptureSettings::parse(printed("every=95,steps=1,also=%d", settling_step));
     options.style = StatusLine::Style::quiet;
     if (const ExitCode code = run(options).code; code != ExitCode::ok) return code;
     create_folder(folder / "problems" / wanted.name);

@@ -65,7 +65,7 @@ std::vector<Task> make_tasks(const std::filesystem::path& results, std::vector<P
 struct PlanOptions {
   std::filesystem::path results = "results";
   int jobs = 1;               ///< processes at a time
-  std::string only;           ///< names to run, as a shell's pattern; empty: all
+  std::string only = {};      ///< names to run, as a shell's pattern; empty: all
   double max_seconds = 1e30;  ///< wall clock: everything is stopped with checkpoints after this
   StatusLine::Style style = StatusLine::style_of_stderr();
 };
