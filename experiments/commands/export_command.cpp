@@ -139,17 +139,14 @@ ViewData view_of(const ViewOptions& options) {
                        options.packing_cache);
 }
 
-/// Beside what is there already: in a run's folder, beside a problem; else here.
-fs::path page_of(const ViewOptions& options) {
-  if (!options.output.empty()) return options.output;
-  const fs::path path = options.thing;
-  if (is_folder(path)) return path / "view.html";
-  const std::string name = path.stem().string() + ".view.html";
-  return is_problem_file(path) ? path.parent_path() / name : fs::path(name);
-}
-
 ExitCode write_view(const ViewOptions& options) {
-  const fs::path page = page_of(options);
+  fs::path page = options.output;
+  if (page.empty()) {
+    // Beside what is there already: in a run's folder, beside a problem; else here.
+    const fs::path path = options.thing, name = path.stem().string() + ".view.html";
+    page = is_folder(path) ? path / "view.html"
+                           : (is_problem_file(path) ? path.parent_path() : fs::path()) / name;
+  }
   write_view_page(view_of(options), page);
   std::cout << page.string() << std::endl;
   if (options.open && !run_program("xdg-open", {fs::absolute(page).string()}, 20.0).succeeded())

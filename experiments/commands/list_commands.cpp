@@ -23,19 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void print_solvers() {
-  std::cout << printed("%-18s%-19s%-7s%-10s", "name", "law", "built", "largest")
-            << "what it is (largest: contacts that it takes)\n";
-  for (const SolverEntry& entry : solver_list()) {
-    const std::string largest = entry.largest == 0 ? "any" : std::to_string(entry.largest);
-    std::cout << printed("%-18s%-19s%-7s%-10s", entry.name, name_of(entry.law),
-                         entry.make ? "yes" : "no", largest.c_str())
-              << entry.description;
-    if (!entry.make) std::cout << " [install " << entry.needs.package << "]";
-    std::cout << '\n';
-  }
-}
-
 /// As it stands in its file; resolved without scene.name where that is only the file's: in a file
 /// of the user's own it would lead into the results of the scene that was printed.
 void print_scene(const std::string& name, const std::vector<std::string>& overrides,
@@ -201,7 +188,17 @@ ExitCode convert(const ConvertOptions& options) {
 
 Command solvers_command() {
   return {"solvers", "Lists the solvers: name, law, whether built, what it is", {}, [] {
-            print_solvers();
+            std::cout << printed("%-18s%-19s%-7s%-10s", "name", "law", "built", "largest")
+                      << "what it is (largest: contacts that it takes)\n";
+            for (const SolverEntry& entry : solver_list()) {
+              const std::string largest =
+                  entry.largest == 0 ? "any" : std::to_string(entry.largest);
+              std::cout << printed("%-18s%-19s%-7s%-10s", entry.name, name_of(entry.law),
+                                   entry.make ? "yes" : "no", largest.c_str())
+                        << entry.description;
+              if (!entry.make) std::cout << " [install " << entry.needs.package << "]";
+              std::cout << '\n';
+            }
             return ExitCode::ok;
           }};
 }

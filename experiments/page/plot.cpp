@@ -186,30 +186,16 @@ std::string script_number(double value) {
   return std::isfinite(value) ? printed("%.7g", value) : "NaN";
 }
 
-std::string data_block(const std::string& name, const Curve& curve) {
-  std::string text = name + " << EOD\n";
-  for (size_t k = 0; k < curve.x.size(); ++k) {
-    text += script_number(curve.x[k]) + ' ' + script_number(curve.y[k]);
-    if (!curve.y_low.empty()) text += ' ' + script_number(curve.y_low[k]);
-    if (!curve.y_error.empty()) text += ' ' + script_number(curve.y_error[k]);
-    text += '\n';
-  }
-  return text + "EOD\n";
-}
-
-std::string colour(Ink ink, double opacity) {
-  const int transparency =
-      static_cast<int>(std::lround(255.0 * (1.0 - std::clamp(opacity, 0.0, 1.0))));
-  if (transparency == 0) return std::string("'") + rgb_of(ink) + "'";
-  return printed("'#%02x%s'", transparency, rgb_of(ink) + 1);
-}
-
 std::string plot_command(const std::string& block, const Curve& curve) {
   constexpr const char* dashes[] = {" dt (8,5)", " dt (4,3)", " dt (1.5,3)"};
   constexpr int shapes[] = {7, 9, 5, 13};  // gnuplot's numbers, in the order of MarkShape
   const int shape = shapes[static_cast<size_t>(curve.shape)];
   std::string text = block;
-  const std::string ink = colour(curve.ink, curve.opacity);
+  const double transparency = 255.0 * (1.0 - std::clamp(curve.opacity, 0.0, 1.0));
+  const std::string rgb = rgb_of(curve.ink) + 1,
+                    ink = transparency < 0.5
+                              ? "'#" + rgb + "'"
+                              : printed("'#%02lx", std::lround(transparency)) + rgb + "'";
   switch (curve.mark) {
     case Mark::line:
       text += printed(" using 1:2 with lines lc rgb %s lw %.3g%s", ink.c_str(), curve.width,
@@ -317,9 +303,17 @@ std::string gnuplot_script(const Figure& figure) {
   std::string text =
       "# " + figure.name + ": gnuplot " + figure.name + ".gnuplot > " + figure.name + ".svg\n";
   for (size_t p = 0; p < figure.panels.size(); ++p)
-    for (size_t c = 0; c < figure.panels[p].curves.size(); ++c)
-      text += data_block("$p" + std::to_string(p) + "c" + std::to_string(c),
-                         figure.panels[p].curves[c]);
+    for (size_t c = 0; c < figure.panels[p].curves.size(); ++c) {
+      const Curve& curve = figure.panels[p].curves[c];
+      text += printed("$p%zuc%zu << EOD\n", p, c);
+      for (size_t k = 0; k < curve.x.size(); ++k) {
+        text += script_number(curve.x[k]) + ' ' + script_number(curve.y[k]);
+        for (const std::vector<double>* more : {&curve.y_low, &curve.y_error})
+          if (!more->empty()) text += ' ' + script_number((*more)[k]);
+        text += '\n';
+      }
+      text += "EOD\n";
+    }
   text += "set encoding utf8\nset minussign\n";
   std::string id = figure.name;  // gnuplot takes no hyphen here
   std::replace(id.begin(), id.end(), '-', '_');

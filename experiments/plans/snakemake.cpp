@@ -11,29 +11,7 @@ namespace fs = std::filesystem;
 
 std::string cluster_file(const std::string& name);  // of experiments/plans/cluster
 
-namespace {
-
 using Json = nlohmann::ordered_json;
-
-/// What the Snakefile reads: the arguments of every job, by packing and by run.
-Json jobs_json(const std::vector<PlannedRun>& runs, const fs::path& results,
-               const fs::path& program, const Json& finish) {
-  Json packings = Json::object(), jobs = Json::object();
-  for (const PlannedRun& run : runs) {
-    if (!run.packing.empty() && !packings.contains(run.packing))
-      packings[run.packing] = run_arguments(results, run, true);
-    if (jobs.contains(run.key)) continue;
-    jobs[run.key] = {
-        {"name", run.name}, {"packing", run.packing}, {"arguments", run_arguments(results, run)}};
-  }
-  return {{"program", program.string()},
-          {"results", results.string()},
-          {"finish", finish},
-          {"packings", packings},
-          {"runs", jobs}};
-}
-
-}  // namespace
 
 void write_snakemake(const Plan& plan, const fs::path& file, const PlanOptions& options,
                      const fs::path& program, const fs::path& folder_given) {
@@ -57,9 +35,22 @@ void write_snakemake(const Plan& plan, const fs::path& file, const PlanOptions& 
   fs::permissions(status, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                   fs::perm_options::add);
   for (const char* name : {"runs", "packings", "logs", "snakemake"}) create_folder(results / name);
-  const Json jobs = jobs_json(runs, results, program, finish);
+  // What the Snakefile reads: the arguments of every job, by packing and by run.
+  Json packings = Json::object(), jobs = Json::object();
+  for (const PlannedRun& run : runs) {
+    if (!run.packing.empty() && !packings.contains(run.packing))
+      packings[run.packing] = run_arguments(results, run, true);
+    if (jobs.contains(run.key)) continue;
+    jobs[run.key] = {
+        {"name", run.name}, {"packing", run.packing}, {"arguments", run_arguments(results, run)}};
+  }
+  const Json all{{"program", program.string()},
+                 {"results", results.string()},
+                 {"finish", finish},
+                 {"packings", packings},
+                 {"runs", jobs}};
   write_whole_file(folder / "runs.json",
-                   jobs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+                   all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   write_whole_file(folder / "Snakefile", cluster_file("Snakefile"));
 }
 

@@ -76,22 +76,6 @@ RowWriter begin_or_continue(const fs::path& file, const RowLayout& layout,
   return RowWriter(file, reader, kept);
 }
 
-/// steps.csv: 17 digits bring back the same bits.
-void write_table(const fs::path& target, RowReader& rows) {
-  AtomicFile file(target);
-  CsvWriter csv;
-  for (const StepColumn& column : step_columns()) csv.add(column.name);
-  csv.end_row();
-  rows.rewind();
-  for (auto row = rows.next(); !row.empty(); row = rows.next()) {
-    for (const double value : row) csv.add(value, 17);
-    csv.end_row();
-    file.write(csv.take());
-  }
-  file.write(csv.take());  // where there is no row
-  file.commit();
-}
-
 }  // namespace
 
 Recorder::Recorder(const fs::path& folder, const MechanicalSystem& system, long last_step,
@@ -141,7 +125,18 @@ void Recorder::flush() {
 void Recorder::finish(const std::string& scene_text, const std::string& manifest_text) {
   flush();
   RowReader steps(steps_log(folder_)), poses(poses_log(folder_));
-  write_table(steps_table(folder_), steps);
+  // steps.csv: 17 digits bring back the same bits
+  AtomicFile table(steps_table(folder_));
+  CsvWriter csv;
+  for (const StepColumn& column : step_columns()) csv.add(column.name);
+  csv.end_row();
+  table.write(csv.take());
+  for (auto row = steps.next(); !row.empty(); row = steps.next()) {
+    for (const double value : row) csv.add(value, 17);
+    csv.end_row();
+    table.write(csv.take());
+  }
+  table.commit();
   std::optional<RowReader> forces;
   if (forces_) forces.emplace(forces_log(folder_));
   write_record_file(record_file(folder_), system_, steps, poses, forces ? &*forces : nullptr,

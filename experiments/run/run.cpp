@@ -74,7 +74,12 @@ class Run {
     RunEnd end;
     end.folder = folder_.path();
     if (options_.deposit_only) {
-      end.code = deposit_only();
+      if (!scene_.grains)
+        throw Error(options_.scene + ": --deposit-only: has no [grains] to deposit");
+      Packing packing;
+      double seconds = 0.0;
+      if (!take_packing(scene_, make_rain(scene_), packing_order(), packing, seconds))
+        end.code = why_to_stop();
     } else if (!open_folder()) {
       end.was_finished = true;
     } else {
@@ -121,15 +126,6 @@ class Run {
     order.style = options_.style;
     order.goes_on = [this] { return why_to_stop() == ExitCode::ok; };
     return order;
-  }
-
-  ExitCode deposit_only() const {
-    if (!scene_.grains)
-      throw Error(options_.scene + ": --deposit-only: has no [grains] to deposit");
-    Packing packing;
-    double seconds = 0.0;
-    const bool there = take_packing(scene_, make_rain(scene_), packing_order(), packing, seconds);
-    return there ? ExitCode::ok : why_to_stop();
   }
 
   /// From the scene, its packing, or the checkpoint. False: stopped while depositing.

@@ -193,17 +193,6 @@ std::vector<std::pair<Rod, double>> chains_in(const ViewData& view, size_t frame
   return chains;
 }
 
-/// What nearly all chains of some frames stay below [N].
-double top_force(const ViewData& view) {
-  std::vector<double> forces;
-  const size_t count = view.frames.size();
-  for (size_t f = 0; f < count; f += std::max<size_t>(1, count / 10))
-    for (const auto& [rod, force] : chains_in(view, f)) forces.push_back(force);
-  std::sort(forces.begin(), forces.end());
-  const double top = forces.empty() ? 0.0 : forces[(forces.size() - 1) * 199 / 200];
-  return top > 0.0 ? top : 1.0;
-}
-
 /// A series of the view at a time, by its last row before, over its largest; 0 where there is none.
 double share_of_series(const ViewData& view, const std::string& name, double time) {
   const auto row = std::upper_bound(view.series_time.begin(), view.series_time.end(), time);
@@ -235,7 +224,15 @@ class Camera {
     for (size_t f = 0; f < view.frames.size(); ++f)
       for (int g = 0; g < view.system.grain_count; ++g)
         top_value_ = std::max(top_value_, value_of(f, g));
-    if (options.with_chains) top_force_ = top_force(view);
+    if (!options.with_chains) return;
+    // what nearly all chains of some frames stay below
+    std::vector<double> forces;
+    const size_t count = view.frames.size();
+    for (size_t f = 0; f < count; f += std::max<size_t>(1, count / 10))
+      for (const auto& [rod, force] : chains_in(view, f)) forces.push_back(force);
+    std::sort(forces.begin(), forces.end());
+    const double top = forces.empty() ? 0.0 : forces[(forces.size() - 1) * 199 / 200];
+    if (top > 0.0) top_force_ = top;
   }
 
   /// Red, green and blue as sRGB bytes, row after row from the top.
@@ -421,7 +418,7 @@ class Camera {
   const StillOptions& options_;
   Box box_;
   Lens lens_, sunlight_;
-  double top_value_ = 0.0, top_force_ = 1.0;
+  double top_value_ = 0.0, top_force_ = 1.0;  // [N]
   std::vector<float> depth_;
   std::vector<Colour> pixels_;
 };
@@ -437,16 +434,6 @@ std::string png_numbers(std::initializer_list<size_t> values) {
 /// Length, name, content, check sum.
 std::string png_chunk(const std::string& name, const std::string& content) {
   return png_numbers({content.size()}) + name + content + png_numbers({crc32_of(name + content)});
-}
-
-/// Each row as its difference from the one above.
-std::string packed_rows(const std::string& bytes, size_t width) {
-  std::string rows;
-  for (size_t at = 0; at < bytes.size(); ++at) {
-    if (at % (3 * width) == 0) rows += '\2';
-    rows += static_cast<char>(bytes[at] - (at < 3 * width ? 0 : bytes[at - 3 * width]));
-  }
-  return deflated(rows, 9);
 }
 
 }  // namespace
@@ -481,7 +468,14 @@ std::string still_png(const ViewData& view, const std::vector<size_t>& frames,
     if (moves)
       png += png_chunk("fcTL", png_numbers({number++, width, height, 0, 0}) +
                                    std::string("\0\x64\3\xe8\0\0", 6));
-    const std::string rows = packed_rows(camera.take(frame), width);
+    // each row as its difference from the one above
+    const std::string bytes = camera.take(frame);
+    std::string rows;
+    for (size_t at = 0; at < bytes.size(); ++at) {
+      if (at % (3 * width) == 0) rows += '\2';
+      rows += static_cast<char>(bytes[at] - (at < 3 * width ? 0 : bytes[at - 3 * width]));
+    }
+    rows = deflated(rows, 9);
     png += number > 1 ? png_chunk("fdAT", png_numbers({number++}) + rows) : png_chunk("IDAT", rows);
   }
   return png + png_chunk("IEND", "");
