@@ -142,13 +142,6 @@ SolvedFile solved_or_refused(const std::string& file, const SolveOptions& option
   }
 }
 
-void print_heading(int width) {
-  std::string line = printed("%-*s%9s%8s  %-18s%8s%13s", width, "problem", "contacts", "rows",
-                             "stopped", "iter", "verdict");
-  for (const ShownMeasure& m : measures_of({})) line += printed("%10s", m.heading);
-  std::cout << line << printed("%8s\n", "worst");
-}
-
 void print_row(const SolvedFile& s, int width) {
   const std::string name = std::filesystem::path(s.file).filename();
   if (!s.refused.empty()) {
@@ -232,7 +225,10 @@ ExitCode solve(const SolveOptions& options) {
   SolverRunner runner;
   std::vector<SolvedFile> solved;
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  if (!options.json) print_heading(width);
+  std::string heading = printed("%-*s%9s%8s  %-18s%8s%13s", width, "problem", "contacts", "rows",
+                                "stopped", "iter", "verdict");
+  for (const ShownMeasure& m : measures_of({})) heading += printed("%10s", m.heading);
+  if (!options.json) std::cout << heading << printed("%8s\n", "worst");
   for (const std::string& file : options.files) {
     solved.push_back(solved_or_refused(file, options, runner));
     if (options.json)

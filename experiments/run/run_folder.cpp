@@ -189,26 +189,21 @@ bool is_manifest(const fs::path& file) {
   }
 }
 
-/// The page's figures: our scripts, known by their first line, and what gnuplot made of them.
-void clear_figures(const fs::path& folder) {
-  std::error_code none;
-  std::vector<fs::path> scripts;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-    if (entry.path().extension() == ".gnuplot" && entry.is_regular_file(none))
-      scripts.push_back(entry.path());
-  for (const fs::path& script : scripts) {
-    const std::string name = script.stem().string();
-    if (!read_whole_file(script).starts_with("# " + name + ": gnuplot ")) continue;
-    fs::remove(script);
-    fs::remove(folder / (name + ".svg"));
-  }
-  if (!scripts.empty()) fs::remove(folder, none);  // where nothing else is in it
-}
-
 /// Removes what a run has written, by its names, and folders that are empty then.
 void clear(const fs::path& run) {
   std::error_code none;
-  clear_figures(run / "figures");
+  // The page's figures: our scripts, known by their first line, and what gnuplot made of them.
+  std::vector<fs::path> scripts;
+  for (const fs::directory_entry& entry : fs::directory_iterator(run / "figures", none))
+    if (entry.path().extension() == ".gnuplot" && entry.is_regular_file(none))
+      scripts.push_back(entry.path());
+  for (fs::path& script : scripts) {
+    const std::string name = script.stem().string();
+    if (!read_whole_file(script).starts_with("# " + name + ": gnuplot ")) continue;
+    fs::remove(script);
+    fs::remove(script.replace_extension(".svg"));
+  }
+  if (!scripts.empty()) fs::remove(run / "figures", none);  // where nothing else is in it
   for (const auto& [own, pattern] : run_files) {
     const fs::path folder = run / own;
     std::vector<fs::path> found;

@@ -193,18 +193,6 @@ page::Picture effort_figure(const RunData& data, const RunSummary& summary) {
                                  {"active", page::number(summary.active_contacts.mean, 4)}}));
 }
 
-/// Change of kinetic energy − works + dissipation since the first step, without its sign.
-std::vector<double> balance_residual(const std::vector<StepRecord>& steps) {
-  std::vector<double> residual(steps.size(), 0.0);
-  for (size_t k = 1; k < steps.size(); ++k) {
-    const StepRecord& step = steps[k];
-    residual[k] = residual[k - 1] + step.kinetic_energy - steps[k - 1].kinetic_energy -
-                  step.work_load - step.work_gravity - step.work_prescribed + step.dissipated;
-  }
-  for (double& value : residual) value = std::abs(value);
-  return residual;
-}
-
 page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
   const auto time = record_column(data.steps, &StepRecord::time);
   Panel above = time_panel(data, "cumulative energy  (J)"),
@@ -219,9 +207,17 @@ page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
   add_sum(&StepRecord::work_gravity, "of gravity", Ink::green);
   add_sum(&StepRecord::work_prescribed, "of walls and forces", Ink::orange);
   add_sum(&StepRecord::dissipated, "dissipated", Ink::vermilion);
+  // change of kinetic energy − works + dissipation since the first step, without its sign
+  std::vector<double> residual(data.steps.size(), 0.0);
+  for (size_t k = 1; k < residual.size(); ++k) {
+    const StepRecord& step = data.steps[k];
+    residual[k] = residual[k - 1] + step.kinetic_energy - data.steps[k - 1].kinetic_energy -
+                  step.work_load - step.work_gravity - step.work_prescribed + step.dissipated;
+  }
+  for (double& value : residual) value = std::abs(value);
   below.curves = {
       column_line(data, &StepRecord::kinetic_energy, 1.0, "kinetic energy", Ink::black, 1.4),
-      line_of(time, balance_residual(data.steps), "|residual of the balance|", Ink::purple, 1.4)};
+      line_of(time, residual, "|residual of the balance|", Ink::purple, 1.4)};
   std::vector<Panel> panels{below};
   if (!above.curves.empty()) panels.insert(panels.begin(), above);
   return run_picture(

@@ -188,17 +188,6 @@ std::string name_of_run(const RunData& data) {
   return data.folder.filename().string();
 }
 
-/// How much was run, and by what.
-std::vector<page::Text> lede_of(const RunData& data, const RunSummary& summary) {
-  page::Text extent = page::exact(static_cast<double>(summary.steps)) + " steps, " +
-                      page::exact_quantity(summary.duration, "s") + " simulated";
-  if (summary.contacts.samples)
-    extent += ", " + page::number(summary.contacts.mean, 4) + " contact points on average";
-  if (std::isfinite(summary.ms_per_step))
-    extent += ", " + page::quantity(summary.ms_per_step, "ms") + " per step";
-  return {extent + ".", made_by(data)};
-}
-
 /// The bodies in 3D; empty where no pose is stored, or none that can be read.
 page::Replay replay_of_run(RunData& data) {
   try {
@@ -336,7 +325,13 @@ void write_report(const std::filesystem::path& folder) {
   if (!is_clean(summary)) data.notices.insert(data.notices.begin(), words.begin(), words.end());
   page::Page page;
   page.title = name_of_run(data);
-  page.lede = lede_of(data, summary);
+  page::Text extent = page::exact(static_cast<double>(summary.steps)) + " steps, " +
+                      page::exact_quantity(summary.duration, "s") + " simulated";
+  if (summary.contacts.samples)
+    extent += ", " + page::number(summary.contacts.mean, 4) + " contact points on average";
+  if (std::isfinite(summary.ms_per_step))
+    extent += ", " + page::quantity(summary.ms_per_step, "ms") + " per step";
+  page.lede = {extent + ".", made_by(data)};
   page.notices.heading = "To be known before reading";
   page.notices.items.assign(data.notices.begin(), data.notices.end());
   page.answers = {.are_given = true, .with_curves = true};

@@ -193,19 +193,6 @@ std::vector<std::pair<Rod, double>> chains_in(const ViewData& view, size_t frame
   return chains;
 }
 
-/// A series of the view at a time, by its last row before, over its largest; 0 where there is none.
-double share_of_series(const ViewData& view, const std::string& name, double time) {
-  const auto row = std::upper_bound(view.series_time.begin(), view.series_time.end(), time);
-  const auto k = static_cast<size_t>(std::max<long>(0, row - view.series_time.begin() - 1));
-  for (const ViewSeries& series : view.series) {
-    if (series.name != name || k >= series.values.size()) continue;
-    const auto [low, high] = std::minmax_element(series.values.begin(), series.values.end());
-    const double largest = std::max(std::abs(*low), std::abs(*high));
-    return largest > 0.0 ? std::abs(series.values[k]) / largest : 0.0;
-  }
-  return 0.0;
-}
-
 /// Takes pictures of one view, all alike.
 class Camera {
  public:
@@ -339,7 +326,16 @@ class Camera {
 
   /// Edges of walls, and the load on the driven one as an arrow as long as it is large.
   void draw_walls(size_t frame) {
-    const double load = share_of_series(view_, "f", view_.frames[frame].time);
+    // its last value before the frame, over its largest
+    double load = 0.0;
+    const std::vector<double>& times = view_.series_time;
+    const long row = std::ranges::upper_bound(times, view_.frames[frame].time) - times.begin();
+    for (const ViewSeries& series : view_.series) {
+      if (series.name != "f" || series.values.empty()) continue;
+      const auto [low, high] = std::ranges::minmax(series.values);
+      const double largest = std::max(std::abs(low), std::abs(high));
+      if (largest > 0.0) load = std::abs(series.values[std::max(0L, row - 1)]) / largest;
+    }
     for_walls(frame, [&](const auto& loop, const Vec3& inward, bool is_driven) {
       Vec3 middle = Vec3::Zero();
       const double width = is_driven ? -2.2 : -1.5;

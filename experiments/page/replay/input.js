@@ -63,8 +63,8 @@ function listenToKeys(canvas, replay) {
     "-": () => camera.zoom(1.1), x: () => camera.along("x"), y: () => camera.along("y"),
     z: () => camera.along("z"), X: () => camera.along("-x"), Y: () => camera.along("-y"),
     Z: () => camera.along("-z"), h: () => camera.home(), g: () => replay.pickAt(0.5, 0.5),
-    n: () => replay.pick((replay.options.picked + 1) % replay.data.grains),
-    Escape: () => replay.pick(-1), Home: () => replay.setTime(replay.data.begin),
+    n: () => replay.set({ picked: (replay.options.picked + 1) % replay.data.grains }),
+    Escape: () => replay.set({ picked: -1 }), Home: () => replay.setTime(replay.data.begin),
     End: () => replay.setTime(replay.data.end) };
   canvas.addEventListener("keydown", (event) => {
     const action = actions[event.key];

@@ -85,11 +85,8 @@ class Replay {
     this.touched();
   }
 
-  pick(grain) {
-    this.set({ picked: grain });
-  }
   pickAt(x, y) {
-    this.pick(this.stages[0].pick(this.look(0), x, y));
+    this.set({ picked: this.stages[0].pick(this.look(0), x, y) });
   }
 
   // What is beyond is cut away: normal and offset; null: nothing is.
