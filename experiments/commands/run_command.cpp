@@ -146,7 +146,7 @@ struct PaperOptions {
   fs::path output, rows;
 };
 
-PaperData data_of(const std::vector<CampaignRun>& campaign, const PaperOptions& options) {
+PaperData data_of(const std::vector<PlannedRun>& campaign, const PaperOptions& options) {
   std::vector<RunRow> rows;
   if (!options.rows.empty()) rows = read_runs_csv(options.rows);
   return {campaign, options.running.results, std::move(rows)};
@@ -156,11 +156,11 @@ void print_plan(const PaperData& data) {
   std::cout << printed("%-12s%-72s%8s  state\n", "stage", "run", "steps");
   long left = 0;
   std::set<std::string> seen;  // equal runs of several stages are made once
-  for (const CampaignRun& run : data.campaign()) {
+  for (const PlannedRun& run : data.campaign()) {
     const char* state = data.has(run) ? "finished" : data.knows(run) ? "row" : "–";
     if (seen.insert(run.key).second && !data.knows(run)) left += run.steps;
-    std::cout << printed("%-12s%-72s%8ld  %s\n", run.stage.c_str(), run.planned.name.c_str(),
-                         run.steps, state);
+    std::cout << printed("%-12s%-72s%8ld  %s\n", stage_of(run).c_str(), run.name.c_str(), run.steps,
+                         state);
   }
   std::cout << printed("\n%zu runs; %zu finished, %zu known by rows, %ld steps left",
                        data.planned(), data.finished(), data.known_by_row(), left)
@@ -186,7 +186,7 @@ ExitCode run_stages(const PaperData& data, const PaperOptions& options) {
 }
 
 ExitCode reproduce(PaperOptions options) {
-  const std::vector<CampaignRun> campaign = read_campaign(options.campaign);
+  const std::vector<PlannedRun> campaign = read_campaign(options.campaign);
   const std::vector<std::string> targets = paper_targets(campaign);
   const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
   if (!is_target && options.target != "plan" && options.target != "report")

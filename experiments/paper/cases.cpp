@@ -15,40 +15,34 @@ struct StageColumn {
   double factor;  ///< from SI
   RunMeasure value;
 };
-constexpr StageColumn stage_columns[] = {
-    {"Δx~max~ (mm)", 1e3, rise_of},
-    {"C", 1.0, prefactor_of},
-    {"C by the theory", 1.0, theory_of},
-    {"F/(m g)", 1.0, [](const RunRow& run) { return run["push_over_weight"]; }},
-    {"v~max~ (mm/s)", 1e3, speed_of},
-    {"net a period (mm)", 1e3, [](const RunRow& run) { return run["net"]; }},
-    {"ρ before", 1.0, density_of},
-    {"Δρ~1~ (10^−4^)", 1e4, gain_of},
-    {"η (10^−3^/s)", 1e3, rate_of},
-    {"η, 0.4–1 s", 1e3, common_rate_of},
-    {"t~90~ (s)", 1.0, time90_of},
-    {"error (g·h)", 1.0, [](const RunRow& run) { return run["error"]; }}};
+constexpr StageColumn stage_columns[] = {{"Δx~max~ (mm)", 1e3, "rise"},
+                                         {"C", 1.0, "prefactor"},
+                                         {"C by the theory", 1.0, "prefactor_theory"},
+                                         {"F/(m g)", 1.0, "push_over_weight"},
+                                         {"v~max~ (mm/s)", 1e3, "speed_in"},
+                                         {"net a period (mm)", 1e3, "net"},
+                                         {"ρ before", 1.0, "density_before"},
+                                         {"Δρ~1~ (10^−4^)", 1e4, "gain"},
+                                         {"η (10^−3^/s)", 1e3, "rate"},
+                                         {"η, 0.4–1 s", 1e3, "rate_common"},
+                                         {"t~90~ (s)", 1.0, "first_time90"},
+                                         {"error (g·h)", 1.0, "error"}};
 
 /// A table of what some cases come to.
 struct CaseTable {
   const char* section;
-  RunMeasure along;  ///< what the rows of a case are at
-  const char* unit;  ///< of it
   std::vector<Selection> cases;
-  RunMeasure exponent_along = nullptr;  ///< null: no exponents
-  bool has_changes = false;             ///< of each case beside the first
+  RunMeasure along = "frequency";  ///< what the rows of a case are at
+  RunMeasure exponent_along = "";  ///< empty: no exponents
+  bool has_changes = false;        ///< of each case beside the first
 };
-
-using Row = const RunRow&;
 
 /// In the order of a section's tables. Rows of 23 November 2026 and before are recognised by their
 /// two hundred iterations a step, whatever the error: one of them stands under the stage that asked
 /// for it first.
 const CaseTable case_tables[] = {
-    {"fig9", frequency_of, " Hz", {{"ν", "frequency; slowest"}}},
+    {"fig9", {{"ν", "frequency; slowest"}}},
     {"tight",
-     frequency_of,
-     " Hz",
      {{"error ≤ 1e-2 g·h", "tight"},
       {"error ≤ 1e-3 g·h", "tightest"},
       {"LMGC90’s rule", "rule"},
@@ -56,74 +50,58 @@ const CaseTable case_tables[] = {
        "deposits lid_pressure>0 deposit_friction=0.4 iterations_most=200;"
        "looseness lid_pressure>0 deposit_friction=0.4 iterations_most=200 frequency=10"},
       {"the campaign’s own", "frequency"}},
-     frequency_of,
+     "frequency",
+     "frequency",
      true},
     {"laws",
-     frequency_of,
-     " Hz",
      {{"Coulomb’s law", "laws solver!sap"}, {"its convex relaxation", "laws solver=sap"}},
-     nullptr,
+     "frequency",
+     "",
      true},
-    {"reading", frequency_of, " Hz", {{"vibrated_box_paper", "reading"}}},
+    {"reading", {{"vibrated_box_paper", "reading"}}},
     // other packings: how they were deposited, and of what grains
     {"deposits",
-     frequency_of,
-     " Hz",
      {{"lid pressed, μ 0.4",
        "deposits lid_pressure>0 deposit_friction=0.4;"
        "looseness lid_pressure>0 deposit_friction=0.4 iterations_most=200 frequency=10"},
       {"lid pressed, μ 0.8", "deposits lid_pressure>0 deposit_friction=0.8"},
       {"lid placed, μ 0.4", "deposits lid_pressure=0 deposit_friction=0.4"},
       {"lid placed, μ 0.8", "deposits lid_pressure=0 deposit_friction=0.8"}},
-     frequency_of,
+     "frequency",
+     "frequency",
      true},
     {"shapes",
-     frequency_of,
-     " Hz",
      {{"as the campaign’s",
        "shapes name~base; deposits lid_pressure>0 deposit_friction=0.4 iterations_most=200"},
       {"angular and platy", "shapes name~platy"},
       {"spheres of 162 vertices", "shapes name~spheres"},
       {"fractions by mass", "shapes name~mass"}},
-     nullptr,
+     "frequency",
+     "",
      true},
     // other boxes and other loads
-    {"box",
-     [](Row run) { return run["length"]; },
-     " m",
-     {{"5 Hz", "box frequency=5"}, {"20 Hz", "box frequency=20"}},
-     aspect_of},
+    {"box", {{"5 Hz", "box frequency=5"}, {"20 Hz", "box frequency=20"}}, "length", "aspect"},
     {"loads",
-     frequency_of,
-     " Hz",
      {{"f_max = 6 m g", "loads force_over_weight=6 largest_size>0.04"},
       {"f_max = 12 m g", "loads force_over_weight=12 largest_size>0.04"},
       {"f_max = 6 m g, all at half scale", "loads force_over_weight=6 largest_size<0.04"}}},
     {"sizes",
-     grains_of,
-     "",
      {{"similar boxes, H/L fixed",
        "sizes name~similar;"
        "deposits lid_pressure>0 deposit_friction=0.4 frequency=5 iterations_most=200"},
       {"wider boxes, H/d fixed",
        "sizes name~wide;"
        "deposits lid_pressure>0 deposit_friction=0.4 frequency=5 iterations_most=200"}},
-     [](Row run) { return std::cbrt(grains_of(run)); }},
+     "grains",
+     "grains_across"},
     // what has to be chosen, each alone
     {"sensitivity",
-     [](Row run) { return run["step"]; },
-     " s",
      {{"step h",
        "sensitivity friction=0.4 lid_raise=0.01 largest_size=0.05 solver=nesterov_pgs;"
-       "sensitivity friction=0.4 lid_raise=0.01 largest_size=0.05 solver=nncg"}}},
-    {"sensitivity",
-     [](Row run) { return run["friction"]; },
-     "",
-     {{"friction μ", "sensitivity friction!0.4"}}},
-    {"sensitivity",
-     [](Row run) { return run["lid_raise"]; },
-     " m",
-     {{"gap under the lid", "sensitivity lid_raise!0.01"}}}};
+       "sensitivity friction=0.4 lid_raise=0.01 largest_size=0.05 solver=nncg"}},
+     "step"},
+    {"sensitivity", {{"friction μ", "sensitivity friction!0.4"}}, "friction"},
+    {"sensitivity", {{"gap under the lid", "sensitivity lid_raise!0.01"}}, "lid_raise"}};
 
 /// A case that has rows.
 struct Case {
@@ -132,7 +110,7 @@ struct Case {
 };
 
 /// A row for each case and value.
-page::Table stage_table(const std::vector<Case>& cases, const char* unit) {
+page::Table stage_table(const std::vector<Case>& cases, const std::string& unit) {
   page::Text heads;
   for (const StageColumn& column : stage_columns)
     add_to_list(heads, page::marked(column.head), " || ");
@@ -170,7 +148,7 @@ Groups within(const Groups& groups, const Range& range) {
 /// Exponents of Delta x_max and v_max, sample by sample; each case's first ones are findings.
 void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperSection& section) {
   page::Table table = page::words_table("exponents");
-  const bool is_frequency = what.exponent_along == frequency_of;
+  const bool is_frequency = what.exponent_along == "frequency";
   for (const Case& row : cases) {
     bool is_first = true;
     for (const Range& range :
@@ -178,10 +156,10 @@ void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperS
       const Groups groups = within(row.groups, range);
       if (groups.size() < (range.is_pair ? 2 : 3)) continue;
       const size_t fewest = is_frequency ? groups.size() : 3;
-      const SampleMean rise = exponent_by_sample(groups, what.exponent_along, rise_of, fewest),
-                       speed = exponent_by_sample(groups, what.exponent_along, speed_of, fewest);
+      const SampleMean rise = exponent_by_sample(groups, what.exponent_along, "rise", fewest),
+                       speed = exponent_by_sample(groups, what.exponent_along, "speed_in", fewest);
       const page::Text over = groups.front().label + (range.is_pair ? " and " : " to ") +
-                              groups.back().label + what.unit;
+                              groups.back().label + unit_behind(what.along);
       table.rows.push_back({row.name, over, std::to_string(rise.samples), words_with_interval(rise),
                             words_with_interval(speed)});
       if (std::exchange(is_first, false))
@@ -203,17 +181,17 @@ void add_changes(const CaseTable& what, const std::vector<Case>& cases, PaperSec
     for (const Group& group : row.groups) {
       const Group* same = at(cases.front().groups, group.value);
       if (&row == &cases.front() || !same) continue;
-      const SampleMean change = log_change(*same, group, prefactor_of);
+      const SampleMean change = log_change(*same, group, "prefactor");
       if (!std::isfinite(change.mean)) continue;
       chances.push_back(change.p());
-      table.rows.push_back({row.name, group.label + what.unit, words_of_change(change),
-                            words_of_p(change.p()), page::Text(),
-                            words_of_change(log_change(*same, group, speed_of)),
-                            words_of_change(log_change(*same, group, gain_of))});
+      table.rows.push_back({row.name, group.label + unit_behind(what.along),
+                            words_of_change(change), words_of_p(change.p()), page::Text(),
+                            words_of_change(log_change(*same, group, "speed_in")),
+                            words_of_change(log_change(*same, group, "gain"))});
     }
   const std::vector<double> corrected = holm(chances);
   for (size_t k = 0; k < corrected.size(); ++k) table.rows[k][4] = words_of_p(corrected[k]);
-  if (!what.exponent_along)
+  if (what.exponent_along.empty())
     for (const std::vector<page::Text>& row : table.rows)
       section.report(section.id + ".claim", {{"case", row[0]},
                                              {"at", row[1]},
@@ -238,12 +216,12 @@ struct PaperNumber {
   bool is_exponent;
 };
 const PaperNumber paper_numbers[] = {
-    {"exponent of Δx~max~ in ν", PaperRange::exponent(-2.0), rise_of, true},
-    {"exponent of v~max~ in ν", PaperRange::exponent(-1.0), speed_of, true},
-    {"C at 5 Hz", PaperRange::roughly(paper::prefactor), prefactor_of, false},
-    {"ρ before the drive", PaperRange::about(paper::solid_fraction_initial, 0.005), density_of,
-     false},
-    {"Δρ~1~/ρ~0~ a period at 5 Hz", PaperRange::roughly(paper::gain_per_period), relative_gain_of,
+    {"exponent of Δx~max~ in ν", PaperRange::exponent(-2.0), "rise", true},
+    {"exponent of v~max~ in ν", PaperRange::exponent(-1.0), "speed_in", true},
+    {"C at 5 Hz", PaperRange::roughly(paper::prefactor), "prefactor", false},
+    {"ρ before the drive", PaperRange::about(paper::solid_fraction_initial, 0.005),
+     "density_before", false},
+    {"Δρ~1~/ρ~0~ a period at 5 Hz", PaperRange::roughly(paper::gain_per_period), "relative_gain",
      false}};
 
 Found found_of(const PaperNumber& number, const Groups& groups) {
@@ -251,7 +229,7 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
     const Group* slow = at(groups, 5.0);
     return slow ? found(slow->mean(number.measure)) : Found{};
   }
-  const Points points = points_of(groups, frequency_of, number.measure);
+  const Points points = points_of(groups, "frequency", number.measure);
   const PowerFit fit = fit_power(points.x, points.y);
   return std::isfinite(fit.exponent) ? found(fit, misfit_of(fit, points).p) : Found{};
 }
@@ -262,8 +240,8 @@ void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
     if (Groups groups = data.groups(selection, what.along); !groups.empty())
       cases.push_back({selection.name, std::move(groups)});
   if (cases.empty()) return;
-  section.add(stage_table(cases, what.unit));
-  if (what.exponent_along) add_exponents(what, cases, section);
+  section.add(stage_table(cases, unit_behind(what.along)));
+  if (!what.exponent_along.empty()) add_exponents(what, cases, section);
   if (what.has_changes) add_changes(what, cases, section);
 }
 
@@ -277,8 +255,8 @@ void add_cases(PaperData& data, PaperSection& section) {
 void fill_replicas(PaperData& data, PaperSection& section) {
   Group slow, fast;
   for (const RunRow* row : data.rows({"", "replicas"})) {
-    if (frequency_of(*row) == 10.0) slow.samples.push_back(row);
-    if (frequency_of(*row) == 60.0) fast.samples.push_back(row);
+    if ((*row)["frequency"] == 10.0) slow.samples.push_back(row);
+    if ((*row)["frequency"] == 60.0) fast.samples.push_back(row);
   }
   if (slow.samples.size() + fast.samples.size() < 2) return;
   page::Table table = page::words_table("replicas.table");
@@ -291,17 +269,17 @@ void fill_replicas(PaperData& data, PaperSection& section) {
     }
   }
   section.add(table);
-  section.report("replicas.claim", {{"slow", scatter_words(slow.mean(rise_of))},
+  section.report("replicas.claim", {{"slow", scatter_words(slow.mean("rise"))},
                                     {"slow_runs", std::to_string(slow.samples.size())},
-                                    {"fast", scatter_words(fast.mean(rise_of))},
+                                    {"fast", scatter_words(fast.mean("rise"))},
                                     {"fast_runs", std::to_string(fast.samples.size())}});
 }
 
 void fill_reading(PaperData& data, PaperSection& section) {
-  const Groups reading = data.groups({"", "reading"}, frequency_of);
+  const Groups reading = data.groups({"", "reading"}, "frequency");
   if (reading.empty()) return;
   // only frequencies that both scenes were driven at
-  Groups base = data.groups({"", "frequency; slowest"}, frequency_of);
+  Groups base = data.groups({"", "frequency; slowest"}, "frequency");
   std::erase_if(base, [&](const Group& group) { return !at(reading, group.value); });
   page::Table table = page::words_table("reading.table");
   int agree[2] = {0, 0};

@@ -19,7 +19,7 @@ std::vector<CurvePoint> distinct_points(const std::vector<Groups>& groups) {
   std::vector<CurvePoint> points;
   for (size_t series = 0; series < groups.size(); ++series)
     for (const Group& group : groups[series]) {
-      const CurvePoint point{series, group, eq3_of(*group.samples.front())};
+      const CurvePoint point{series, group, (*group.samples.front())["eq3"]};
       const bool is_new = std::ranges::none_of(points, [&](const CurvePoint& other) {
         return are_same(*other.group.samples.front(), *group.samples.front());
       });
@@ -131,7 +131,7 @@ Panel prefactor_panel(const OneCurve& all) {
   for (size_t series = 0; series < all_series().size(); ++series) {
     Points points;
     for (const CurvePoint& point : all.points)
-      if (point.series == series) points.add(to_mm * point.x, point.group.mean(prefactor_of));
+      if (point.series == series) points.add(to_mm * point.x, point.group.mean("prefactor"));
     if (!points.x.empty())
       panel.curves.push_back(curve_of(points, page::marked(all_series()[series].title),
                                       all_series()[series].ink, all_series()[series].shape));
@@ -214,14 +214,13 @@ struct Law {
 std::vector<Law> all_laws() {
   using enum MarkShape;
   const auto series = all_series();
-  const Axis rise{rise_of, "Δ*x*~max~  (mm)", 1e3},
-      prefactor{prefactor_of, "*C* = Δ*x*~max~ / *X*", 1.0},
-      frequency{frequency_of, "*ν*  (Hz)", 1.0}, speed{speed_of, "*v*~max~  (mm/s)", 1e3},
-      force{series[1].along, "*f*~max~ / (*m g*)", 1.0},
-      gravity{series[2].along, "*g*  (m/s^2^)", 1.0},
-      mass{series[3].along, "*m* / (*m* + *m*~w~)", 1.0},
-      eq3{eq3_of, "right side of Eq. 3 without *C*  (mm)", 1e3}, aspect{aspect_of, "*L*/*H*", 1.0},
-      theory{theory_of, "*C* by the theory, from the force as measured", 1.0};
+  const Axis rise{"rise", "Δ*x*~max~  (mm)", 1e3},
+      prefactor{"prefactor", "*C* = Δ*x*~max~ / *X*", 1.0},
+      frequency{"frequency", "*ν*  (Hz)", 1.0}, speed{"speed_in", "*v*~max~  (mm/s)", 1e3},
+      force{"force_over_weight", "*f*~max~ / (*m g*)", 1.0},
+      gravity{"gravity", "*g*  (m/s^2^)", 1.0}, mass{"grain_share", "*m* / (*m* + *m*~w~)", 1.0},
+      eq3{"eq3", "right side of Eq. 3 without *C*  (mm)", 1e3}, aspect{"aspect", "*L*/*H*", 1.0},
+      theory{"prefactor_theory", "*C* by the theory, from the force as measured", 1.0};
   const std::vector<Series> all(series.begin(), series.end());
   const Selection slow{"5 Hz", "box frequency=5"}, fast{"20 Hz", "box frequency=20"},
       pressed{"ν",
@@ -325,16 +324,13 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
 }  // namespace
 
 std::span<const Series> all_series() {
-  using Row = const RunRow&;
   using enum MarkShape;
-  const RunMeasure gravity = [](Row r) { return r["gravity"]; };
-  const RunMeasure mass = [](Row r) { return 1.0 / (1.0 + r["wall_mass_over_grains"]); };
   // rows of 23 November 2026 and before have g and m_w in one stage
   static const std::vector<Series> all{
-      {{"ν", "frequency; slowest"}, Ink::blue, triangle, frequency_of, "ν"},
-      {{"f_max", "force"}, Ink::vermilion, circle, force_of, "f~max~"},
-      {{"g", "gravity; gravity-mass gravity!9.81"}, Ink::green, square, gravity, "g"},
-      {{"m_w", "mass; gravity-mass gravity=9.81"}, Ink::purple, diamond, mass, "m~w~"}};
+      {{"ν", "frequency; slowest"}, Ink::blue, triangle, "frequency", "ν"},
+      {{"f_max", "force"}, Ink::vermilion, circle, "force_over_weight", "f~max~"},
+      {{"g", "gravity; gravity-mass gravity!9.81"}, Ink::green, square, "gravity", "g"},
+      {{"m_w", "mass; gravity-mass gravity=9.81"}, Ink::purple, diamond, "grain_share", "m~w~"}};
   return all;
 }
 
@@ -359,8 +355,8 @@ OneCurve one_curve(const std::vector<Groups>& groups) {
   all.points = distinct_points(groups);
   Groups distinct;
   for (const CurvePoint& point : all.points) distinct.push_back(point.group);
-  all.between = scatter_between(distinct, rise_of);
-  all.paired = scatter_paired(distinct, rise_of);
+  all.between = scatter_between(distinct, "rise");
+  all.paired = scatter_paired(distinct, "rise");
   if (!all.is_known()) return all;
   // with one sample of each point no errors are known: then every point weighs the same
   const double deviation = all.between.degrees_of_freedom > 0 ? all.between.deviation : 1.0;

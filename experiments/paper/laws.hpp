@@ -12,7 +12,7 @@ struct Series {
   Selection selection;  ///< its name in words
   Ink ink;
   MarkShape shape = MarkShape::circle;
-  RunMeasure along = nullptr;   ///< what is varied
+  RunMeasure along = "";        ///< what is varied
   const char* title = nullptr;  ///< in the legend, in the notation of page::marked()
 };
 /// What Eq. 3 has: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11.
@@ -23,7 +23,7 @@ struct CurvePoint {
   Group group;
   double x = not_known;  ///< X [m]
 
-  double log_rise() const { return sample_mean(group.logs(rise_of)).mean; }
+  double log_rise() const { return sample_mean(group.logs("rise")).mean; }
 };
 
 /// ln Delta x_max as a polynomial of ln(X/X0), X0 the middle of the points.

@@ -25,7 +25,7 @@ SampleMean spread_over(const Groups& groups, RunMeasure measure, double low, dou
     for (const Group& group : groups)
       if (const RunRow* sample = group.like(*row);
           sample && group.value >= low && group.value <= high)
-        seen.push_back(measure(*sample));
+        seen.push_back((*sample)[measure]);
     const Statistics all = statistics(seen);
     spreads.push_back(std::max(all.max / all.mean - 1.0, 1.0 - all.min / all.mean));
   }
@@ -200,8 +200,8 @@ struct RateWindow {
   MarkShape shape;
 };
 constexpr RateWindow windows[] = {
-    {"own", "paper’s window", rate_of, Ink::blue, MarkShape::circle},
-    {"common", "0.4–1 s", common_rate_of, Ink::vermilion, MarkShape::square}};
+    {"own", "paper’s window", "rate", Ink::blue, MarkShape::circle},
+    {"common", "0.4–1 s", "rate_common", Ink::vermilion, MarkShape::square}};
 
 constexpr double paper_peak = 10.0;  // nu_c [Hz]
 
@@ -240,7 +240,7 @@ Found found_peak(const PeakedRate& fit, const Points& points, double law_p) {
 void add_falling_branch(const Groups& groups, PaperSection& section) {
   Points falling;
   for (const Group& group : groups)
-    if (group.value >= paper_peak) falling.add(group.value, group.mean(rate_of));
+    if (group.value >= paper_peak) falling.add(group.value, group.mean("rate"));
   const PowerFit fit = fit_power(falling.x, falling.y);
   const Misfit misfit = misfit_of(fit, falling);
   section.claim("fig13.falling", {{"exponent", words_of(fit)}, {"misfit", words_of(misfit)}},
@@ -252,10 +252,10 @@ void add_falling_branch(const Groups& groups, PaperSection& section) {
 void fill_motion(PaperData& data, PaperSection& section) {
   const std::vector<MotionRun> runs = read_motion(data);
   if (!runs.empty()) add_motion(runs, section);
-  const Groups groups = data.groups({"", "frequency; slowest"}, frequency_of);
+  const Groups groups = data.groups({"", "frequency; slowest"}, "frequency");
   if (groups.size() < 2) return;
   // when the first contraction is over, at all frequencies
-  const Points times = points_of(groups, frequency_of, time90_of);
+  const Points times = points_of(groups, "frequency", "first_time90");
   Panel panel = frequency_panel("90 % of the first contraction  (s)");
   panel.y_min = 0.0;
   panel.curves = {curve_of(times, mean_title, Ink::blue)};
@@ -263,15 +263,13 @@ void fill_motion(PaperData& data, PaperSection& section) {
   section.draw("fig3_times", {.height = 400, .panels = {panel}});
   // the paper takes rho_0 at 0.2 s for every frequency: the slowest first contraction decides
   const Group& slowest = *std::ranges::max_element(
-      groups, {}, [](const Group& group) { return group.mean(time90_of).mean; });
-  const SampleMean latest = slowest.mean(time90_of);
+      groups, {}, [](const Group& group) { return group.mean("first_time90").mean; });
+  const SampleMean latest = slowest.mean("first_time90");
   section.claim("fig3.everywhere",
                 {{"time", words_of(latest)}, {"frequency", slowest.label + " Hz"}},
                 PaperRange::at_most(paper_lag), found(latest));
   for (const auto& [name, measure] :
-       {std::pair<const char*, RunMeasure>{
-            "fig3.size", [](const RunRow& run) { return run["first_contraction"]; }},
-        {"fig3.time", time90_of}}) {
+       {std::pair("fig3.size", "first_contraction"), {"fig3.time", "first_time90"}}) {
     const SampleMean all = spread_over(groups, measure, 0.0, 1e9);
     section.claim(name,
                   {{"all", words_of(all, 100.0)},
@@ -383,14 +381,14 @@ void fill_portraits(PaperData& data, PaperSection& section) {
 }
 
 void fill_rates(PaperData& data, PaperSection& section) {
-  const Groups groups = data.groups({"", "frequency; slowest"}, frequency_of);
+  const Groups groups = data.groups({"", "frequency; slowest"}, "frequency");
   Panel panel = frequency_panel("compaction rate  *η*  (1/s)");
   page::Values words;
   // D as the paper has it: the gain of a period at 5 Hz over rho_0
   const Group* slow = at(groups, 5.0);
-  const SampleMean gain = slow ? slow->mean(relative_gain_of) : SampleMean{};
+  const SampleMean gain = slow ? slow->mean("relative_gain") : SampleMean{};
   for (const RateWindow& window : windows) {
-    const Points curve = points_of(groups, frequency_of, window.rate);
+    const Points curve = points_of(groups, "frequency", window.rate);
     if (curve.x.size() < 2) return;
     panel.curves.push_back(curve_of(curve, window.title, window.ink, window.shape));
     const std::string name = window.name;
@@ -407,7 +405,7 @@ void fill_rates(PaperData& data, PaperSection& section) {
     words[name + "_fixed_misfit"] = words_of(fixed_misfit);
     section.claim("fig13." + name + "_fixed", words, PaperRange::roughly(paper_peak),
                   found_peak(fixed, curve, fixed_misfit.p));
-    if (window.rate != rate_of) continue;
+    if (window.rate != "rate") continue;
     if (std::isfinite(free.critical))
       panel.curves.push_back(law_curve(free, curve, "Eq. 5, both free", Ink::black));
     panel.curves.push_back(

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <ranges>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -109,29 +110,12 @@ constexpr TextColumn text_columns[] = {{"name", &RunRow::name},
                                        {"solver", &RunRow::solver}};
 constexpr size_t texts = std::size(text_columns);
 
-/// What the columns of a file are after its texts, by its first line; null: not known here.
-std::vector<const RunColumn*> columns_of(const CsvReader& reader) {
-  const auto names = reader.cells();
-  if (!std::ranges::equal(names.first(std::min(names.size(), texts)), text_columns, {}, {},
-                          &TextColumn::name))
-    reader.fail("not a report's runs.csv: it begins with name,stage,key,record,solver");
-  std::vector<const RunColumn*> found;
-  for (const std::string_view name : names.subspan(texts)) {
-    const auto* column = std::ranges::find(columns, name, &RunColumn::name);
-    found.push_back(column == std::end(columns) ? nullptr : column);
-  }
-  return found;
-}
-
-RunRow row_of(const CsvReader& reader, const std::vector<const RunColumn*>& found) {
-  reader.require_cells(texts + found.size());
-  const auto cells = reader.cells();
-  RunRow row;
-  for (size_t k = 0; k < texts; ++k) row.*text_columns[k].text = cells[k];
-  for (size_t k = 0; k < found.size(); ++k)
-    if (found[k] && !cells[texts + k].empty())
-      row[found[k]->name] = reader.number(texts + k, found[k]->name);
-  return row;
+/// Where a column stands among the numbers.
+size_t place_of(std::string_view column) {
+  const auto* found = std::ranges::find(columns, column, &RunColumn::name);
+  if (found == std::end(columns))
+    throw std::invalid_argument("no column of runs is called " + std::string(column));
+  return static_cast<size_t>(found - columns);
 }
 
 constexpr const char* usual_scene = "vibrated_box";
@@ -174,20 +158,22 @@ bool takes(const Selection& selection, const RunRow& row) {
 
 }  // namespace
 
-std::vector<CampaignRun> read_campaign(const CampaignSettings& settings) {
+std::vector<PlannedRun> read_campaign(const CampaignSettings& settings) {
   Plan plan = settings.plan.empty() ? built_in_plan() : read_plan(settings.plan);
   // Only those that are wanted: an override may fit no scene but theirs.
   if (!settings.only.empty()) plan.runs = select(plan, settings.only);
-  std::vector<CampaignRun> runs;
   for (PlannedRun& run : plan.runs) {
     if (!settings.scene.empty() && run.scene == usual_scene) run.scene = settings.scene;
     run.overrides.insert(run.overrides.end(), settings.overrides.begin(), settings.overrides.end());
     run = planned_run(run.name, run.scene, run.overrides);
     if (run.packing.empty())
       throw SceneFileError(run.scene + ": has no [grains], expected a vibrated box");
-    runs.push_back({run, run.name.substr(0, run.name.find_first_of("-.")), run.key, run.steps});
   }
-  return runs;
+  return plan.runs;
+}
+
+std::string stage_of(const PlannedRun& run) {
+  return run.name.substr(0, run.name.find_first_of("-."));
 }
 
 std::span<const RunColumn> run_columns() { return columns; }
@@ -198,11 +184,19 @@ RunRow::RunRow(const RunSummary& run) : solver(run.facts.solver) {
   for (const RunColumn& column : columns) numbers.push_back(column.value(run));
 }
 
-size_t RunRow::place_of(std::string_view column) {
-  const auto* found = std::ranges::find(columns, column, &RunColumn::name);
-  if (found == std::end(columns))
-    throw std::invalid_argument("no column of runs is called " + std::string(column));
-  return static_cast<size_t>(found - columns);
+double RunRow::operator[](RunMeasure measure) const {
+  const RunRow& run = *this;
+  if (measure == "relative_gain") return run["gain"] / run["density_reference"];
+  if (measure == "grain_share") return 1.0 / (1.0 + run["wall_mass_over_grains"]);
+  if (measure == "grains_across") return std::cbrt(run["grains"]);
+  return numbers[place_of(measure)];
+}
+
+double& RunRow::operator[](std::string_view column) { return numbers[place_of(column)]; }
+
+std::string unit_behind(RunMeasure measure) {
+  const std::string unit = columns[place_of(measure)].unit;
+  return unit == "1" ? "" : ' ' + unit;
 }
 
 std::string runs_csv(std::span<const RunRow> rows) {
@@ -229,10 +223,21 @@ std::string runs_csv(std::span<const RunRow> rows) {
 std::vector<RunRow> read_runs_csv(const std::filesystem::path& file) {
   CsvReader reader(file);
   if (!reader.next()) reader.fail("empty");
-  const std::vector<const RunColumn*> found = columns_of(reader);
-  std::vector<RunRow> rows;
+  const std::vector<std::string> names(reader.cells().begin(), reader.cells().end());
+  if (!std::ranges::equal(names | std::views::take(texts), text_columns, {}, {}, &TextColumn::name))
+    reader.fail("not a report's runs.csv: it begins with name,stage,key,record,solver");
   if (!reader.next()) reader.fail("the line of units is missing");
-  while (reader.next()) rows.push_back(row_of(reader, found));
+  std::vector<RunRow> rows;
+  while (reader.next()) {
+    reader.require_cells(names.size());
+    const auto cells = reader.cells();
+    RunRow& row = rows.emplace_back();
+    for (size_t k = 0; k < texts; ++k) row.*text_columns[k].text = cells[k];
+    for (const RunColumn& column : columns)
+      if (const auto k = static_cast<size_t>(std::ranges::find(names, column.name) - names.begin());
+          k < names.size() && !cells[k].empty())
+        row[column.name] = reader.number(k, column.name);
+  }
   return rows;
 }
 
@@ -263,7 +268,7 @@ const RunRow* Group::like(const RunRow& other) const {
 
 std::vector<double> Group::values(RunMeasure measure) const {
   std::vector<double> all;
-  for (const RunRow* row : samples) all.push_back(measure(*row));
+  for (const RunRow* row : samples) all.push_back((*row)[measure]);
   return all;
 }
 
@@ -294,7 +299,7 @@ SampleMean log_change(const Group& from, const Group& to, RunMeasure measure) {
   std::vector<double> changes;
   for (const RunRow* row : from.samples)
     if (const RunRow* same = to.like(*row))
-      changes.push_back(std::log(measure(*same)) - std::log(measure(*row)));
+      changes.push_back(std::log((*same)[measure]) - std::log((*row)[measure]));
   return sample_mean(changes);
 }
 
@@ -303,7 +308,7 @@ SampleMean exponent_by_sample(const Groups& groups, RunMeasure along, RunMeasure
   std::map<double, Points> samples;  // by seed
   for (const Group& group : groups)
     for (const RunRow* row : group.samples)
-      samples[(*row)["seed"]].add(along(*row), {measure(*row)});
+      samples[(*row)["seed"]].add((*row)[along], {(*row)[measure]});
   std::vector<double> exponents;
   for (const auto& [seed, points] : samples)
     if (points.x.size() >= fewest) exponents.push_back(fit_power(points.x, points.y).exponent);
@@ -342,11 +347,11 @@ PooledError scatter_paired(const Groups& groups, RunMeasure measure) {
   return pooled;
 }
 
-PaperData::PaperData(std::vector<CampaignRun> campaign, std::filesystem::path results,
+PaperData::PaperData(std::vector<PlannedRun> campaign, std::filesystem::path results,
                      std::vector<RunRow> rows)
     : campaign_(std::move(campaign)), results_(std::move(results)) {
   std::set<std::string> keys;
-  for (const CampaignRun& run : campaign_)
+  for (const PlannedRun& run : campaign_)
     if (keys.insert(run.key).second && RunFolder(folder(run.key)).is_finished(run.key))
       finished_[run.key];
   for (RunRow& row : rows)
@@ -373,11 +378,11 @@ RunRow PaperData::measured(const std::string& key) {
 const std::vector<RunRow>& PaperData::rows() {
   if (!rows_.empty()) return rows_;
   for (auto& [key, row] : finished_) row = measured(key);
-  for (const CampaignRun& run : campaign_) {
+  for (const PlannedRun& run : campaign_) {
     if (!knows(run)) continue;
     rows_.push_back(has(run) ? finished_.at(run.key) : given_.at(run.key));
-    rows_.back().name = run.planned.name;
-    rows_.back().stage = run.stage;
+    rows_.back().name = run.name;
+    rows_.back().stage = stage_of(run);
   }
   rows_.insert(rows_.end(), foreign_.begin(), foreign_.end());
   return rows_;
@@ -393,7 +398,7 @@ std::vector<const RunRow*> PaperData::rows(const Selection& selection) {
 Groups PaperData::groups(const Selection& selection, RunMeasure along) {
   std::map<double, Group> values;
   for (const RunRow* row : rows(selection)) {
-    const double value = rounded(along(*row));
+    const double value = rounded((*row)[along]);
     if (!std::isfinite(value)) continue;
     Group& group = values[value];
     group.value = value;
@@ -422,8 +427,8 @@ Groups PaperData::settings(const Selection& selection) {
 
 std::vector<RunData> PaperData::records(const std::string& stage, double frequency) {
   std::vector<RunData> found;
-  for (const CampaignRun& run : campaign_) {
-    if (run.stage != stage || !has(run)) continue;
+  for (const PlannedRun& run : campaign_) {
+    if (stage_of(run) != stage || !has(run)) continue;
     RunData data = read_run_data(folder(run.key));
     if (std::isnan(frequency) || data.facts.frequency == frequency)
       found.push_back(std::move(data));
@@ -433,8 +438,8 @@ std::vector<RunData> PaperData::records(const std::string& stage, double frequen
 
 std::string PaperData::missing(const std::string& stage) const {
   int planned = 0, known = 0;
-  for (const CampaignRun& run : campaign_)
-    if (run.stage == stage) {
+  for (const PlannedRun& run : campaign_)
+    if (stage_of(run) == stage) {
       ++planned;
       known += knows(run);
     }
@@ -444,7 +449,7 @@ std::string PaperData::missing(const std::string& stage) const {
 
 size_t PaperData::planned() const {
   std::set<std::string> keys;
-  for (const CampaignRun& run : campaign_) keys.insert(run.key);
+  for (const PlannedRun& run : campaign_) keys.insert(run.key);
   return keys.size();
 }
 

@@ -26,15 +26,11 @@ struct CampaignSettings {
   std::string only;                    ///< names of the runs, as a shell's pattern; empty: all
 };
 
-struct CampaignRun {
-  PlannedRun planned;
-  std::string stage;  ///< its name to the first of "-."
-  std::string key;    ///< of the resolved scene: equal runs of several stages have one
-  long steps = 0;     ///< of the drive
-};
-
-/// Stage by stage, the most important first. Throws SceneFileError naming plan, run, key and value.
-std::vector<CampaignRun> read_campaign(const CampaignSettings& settings);
+/// Stage by stage, the most important first; equal runs of several stages have one key. Throws
+/// SceneFileError naming plan, run, key and value.
+std::vector<PlannedRun> read_campaign(const CampaignSettings& settings);
+/// The stage of a run: its name to the first of "-.".
+std::string stage_of(const PlannedRun& run);
 
 /// A number of a run. NaN: not known in this run.
 struct RunColumn {
@@ -46,6 +42,15 @@ struct RunColumn {
 /// The columns of runs.csv after the texts name, stage, key, record, solver.
 std::span<const RunColumn> run_columns();
 
+/// A number of a run by its name: a column of runs.csv, or what follows from some:
+///   relative_gain  Delta rho_1/rho_0
+///   grain_share    m/(m + m_w)
+///   grains_across  cube root of the number of grains
+/// SI units; NaN: not known.
+using RunMeasure = std::string_view;
+/// What stands behind a value of it: " Hz"; empty without a unit.
+std::string unit_behind(RunMeasure measure);
+
 struct RunRow {
   std::string name, stage;  ///< of the campaign
   std::string key;          ///< of the resolved scene: the folder of the record
@@ -56,12 +61,9 @@ struct RunRow {
   /// Nothing is known yet.
   RunRow();
   explicit RunRow(const RunSummary& run);
-  /// The number of a column; there must be one of this name (std::invalid_argument).
-  double operator[](std::string_view column) const { return numbers[place_of(column)]; }
-  double& operator[](std::string_view column) { return numbers[place_of(column)]; }
-
- private:
-  static size_t place_of(std::string_view column);
+  /// There must be one of this name (std::invalid_argument).
+  double operator[](RunMeasure measure) const;
+  double& operator[](std::string_view column);
 };
 
 /// Names, then units, then one row a run.
@@ -75,28 +77,6 @@ std::string run_columns_csv();
 
 /// Of all columns of the steps but wall clock, to the last bit.
 std::string record_hash(std::span<const StepRecord> steps);
-
-/// A number of a run: a column of runs.csv, or what follows from it. SI units; NaN: not known.
-using RunMeasure = double (*)(const RunRow& run);
-
-// what is varied along, and measured, more than once
-inline double frequency_of(const RunRow& run) { return run["frequency"]; }
-inline double force_of(const RunRow& run) { return run["force_over_weight"]; }
-inline double grains_of(const RunRow& run) { return run["grains"]; }
-inline double aspect_of(const RunRow& run) { return run["aspect"]; }
-inline double rise_of(const RunRow& run) { return run["rise"]; }       ///< Delta x_max [m]
-inline double speed_of(const RunRow& run) { return run["speed_in"]; }  ///< v_max [m/s]
-inline double eq3_of(const RunRow& run) { return run["eq3"]; }         ///< X, Eq. 3 without C [m]
-inline double prefactor_of(const RunRow& run) { return run["prefactor"]; }  ///< C
-inline double theory_of(const RunRow& run) { return run["prefactor_theory"]; }
-inline double time90_of(const RunRow& run) { return run["first_time90"]; }
-inline double density_of(const RunRow& run) { return run["density_before"]; }
-inline double gain_of(const RunRow& run) { return run["gain"]; }  ///< Delta rho_1 of a period
-inline double relative_gain_of(const RunRow& run) {
-  return gain_of(run) / run["density_reference"];
-}
-inline double rate_of(const RunRow& run) { return run["rate"]; }  ///< the paper's window [1/s]
-inline double common_rate_of(const RunRow& run) { return run["rate_common"]; }
 
 /// Rows of some stages, each with what its rows must say: "force; sizes name~wide grains>600".
 /// A number is =, ! (another), < or > (to six digits), the solver = or !, and the name holds a
@@ -145,15 +125,15 @@ class PaperData {
  public:
   /// `rows`: of runs whose records are elsewhere (a report's runs.csv). Where a run is there its
   /// own record is measured. Rows of no run of this campaign are taken as they are.
-  PaperData(std::vector<CampaignRun> campaign, std::filesystem::path results,
+  PaperData(std::vector<PlannedRun> campaign, std::filesystem::path results,
             std::vector<RunRow> rows = {});
 
-  const std::vector<CampaignRun>& campaign() const { return campaign_; }
+  const std::vector<PlannedRun>& campaign() const { return campaign_; }
 
   /// Its record is there, and finished.
-  bool has(const CampaignRun& run) const { return finished_.contains(run.key); }
+  bool has(const PlannedRun& run) const { return finished_.contains(run.key); }
   /// The same, or its row was given.
-  bool knows(const CampaignRun& run) const { return has(run) || given_.contains(run.key); }
+  bool knows(const PlannedRun& run) const { return has(run) || given_.contains(run.key); }
   std::filesystem::path folder(const std::string& key) const { return results_ / "runs" / key; }
 
   /// Every run that is known, measured, in the campaign's order; then the rows of no run of it.
@@ -182,7 +162,7 @@ class PaperData {
  private:
   RunRow measured(const std::string& key);
 
-  std::vector<CampaignRun> campaign_;
+  std::vector<PlannedRun> campaign_;
   std::filesystem::path results_;
   std::map<std::string, RunRow> finished_;  ///< by key; measured by rows()
   std::map<std::string, RunRow> given_;     ///< by key

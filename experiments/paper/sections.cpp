@@ -31,18 +31,13 @@ void add_value(CsvWriter& csv, const std::vector<double>& values, size_t k) {
     csv.add("");
 }
 
-bool is_stage(const std::vector<CampaignRun>& campaign, const std::string& name) {
-  return std::ranges::any_of(campaign, [&](const CampaignRun& run) { return run.stage == name; });
-}
-
 /// The stages that a target runs.
-std::set<std::string> needed(const std::vector<CampaignRun>& campaign, const std::string& target) {
+std::set<std::string> needed(const std::vector<PlannedRun>& campaign, const std::string& target) {
   std::set<std::string> stages;
-  if (is_stage(campaign, target)) stages.insert(target);
+  for (const PlannedRun& run : campaign)
+    if (target == every_section || target == stage_of(run)) stages.insert(stage_of(run));
   for (const ReportSection& section : paper_sections())
     if (target == section.name) stages.insert(section.stages.begin(), section.stages.end());
-  if (target == every_section)
-    for (const CampaignRun& run : campaign) stages.insert(run.stage);
   if (stages.empty())
     throw std::invalid_argument("paper: '" + target + "' is not one of " +
                                 joined(paper_targets(campaign)));
@@ -61,7 +56,7 @@ std::vector<page::Text> origin_of(PaperData& data) {
   std::map<std::string, int> commits, machines;
   std::set<std::string> seen;
   double steps = 0.0, seconds = 0.0;
-  for (const CampaignRun& run : data.campaign()) {
+  for (const PlannedRun& run : data.campaign()) {
     if (!data.has(run) || !seen.insert(run.key).second) continue;
     const auto manifest = nlohmann::json::parse(
         read_whole_file(data.folder(run.key) / "manifest.json"), nullptr, false);
@@ -179,13 +174,13 @@ std::span<const ReportSection> paper_sections() {
   return table;
 }
 
-std::vector<std::string> paper_targets(const std::vector<CampaignRun>& campaign) {
+std::vector<std::string> paper_targets(const std::vector<PlannedRun>& campaign) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   };
   for (const ReportSection& section : paper_sections()) add(section.name);
-  for (const CampaignRun& run : campaign) add(run.stage);
+  for (const PlannedRun& run : campaign) add(stage_of(run));
   names.emplace_back(every_section);
   return names;
 }
@@ -193,11 +188,11 @@ std::vector<std::string> paper_targets(const std::vector<CampaignRun>& campaign)
 std::vector<Plan> stages_of(const PaperData& data, const std::string& target) {
   const std::set<std::string> wanted = needed(data.campaign(), target);
   std::vector<Plan> stages;
-  for (const CampaignRun& run : data.campaign()) {
-    if (!wanted.contains(run.stage) || (data.knows(run) && !data.has(run))) continue;
-    const std::string name = "paper-" + run.stage;
+  for (const PlannedRun& run : data.campaign()) {
+    const std::string stage = stage_of(run), name = "paper-" + stage;
+    if (!wanted.contains(stage) || (data.knows(run) && !data.has(run))) continue;
     if (stages.empty() || stages.back().name != name) stages.push_back({name, {}});
-    stages.back().runs.push_back(run.planned);
+    stages.back().runs.push_back(run);
   }
   return stages;
 }

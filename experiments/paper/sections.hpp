@@ -159,7 +159,7 @@ struct ReportSection {
 std::span<const ReportSection> paper_sections();
 
 /// Names that `ballast paper` takes: those of the sections, of the stages, and "all".
-std::vector<std::string> paper_targets(const std::vector<CampaignRun>& campaign);
+std::vector<std::string> paper_targets(const std::vector<PlannedRun>& campaign);
 /// What a target needs as plans, one for each stage: to be run in this order. Runs of which a row
 /// alone is known are left out. Throws std::invalid_argument naming the target and what there is.
 std::vector<Plan> stages_of(const PaperData& data, const std::string& target);

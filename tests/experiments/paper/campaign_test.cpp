@@ -16,18 +16,18 @@ using namespace ballast;
 
 namespace {
 
-const std::vector<CampaignRun>& campaign() {
-  static const std::vector<CampaignRun> runs = read_campaign({});
+const std::vector<PlannedRun>& campaign() {
+  static const std::vector<PlannedRun> runs = read_campaign({});
   return runs;
 }
 
 /// Calls `see` for every run of a stage; returns how many there are.
 int for_stage(const std::string& stage,
-              const std::function<void(const CampaignRun&, const Scene&)>& see) {
+              const std::function<void(const PlannedRun&, const Scene&)>& see) {
   int count = 0;
-  for (const CampaignRun& run : campaign())
-    if (run.stage == stage) {
-      see(run, read_scene(find_scene(run.planned.scene), run.planned.overrides));
+  for (const PlannedRun& run : campaign())
+    if (stage_of(run) == stage) {
+      see(run, read_scene(find_scene(run.scene), run.overrides));
       ++count;
     }
   return count;
@@ -38,16 +38,16 @@ int for_stage(const std::string& stage,
 TEST_CASE("every stage has whole periods and three samples, or one packing, or ten") {
   std::map<std::string, std::map<std::string, std::set<std::uint64_t>>> seeds;
   std::set<std::string> keys, stages;
-  for (const CampaignRun& run : campaign()) stages.insert(run.stage);
+  for (const PlannedRun& run : campaign()) stages.insert(stage_of(run));
   for (const std::string& stage : stages)
-    for_stage(stage, [&](const CampaignRun& run, const Scene& scene) {
-      INFO(run.planned.name);
+    for_stage(stage, [&](const PlannedRun& run, const Scene& scene) {
+      INFO(run.name);
       CHECK(scene.step_count() == run.steps);
       CHECK(scene.duration * scene.drive.frequency >= 3.0 - 1e-9);
       // frames stand at the ends of the periods that are looked at in space
       CHECK(scene.record.pose_rate == 20.0);
       keys.insert(run.key);
-      std::string setting = run.planned.name;
+      std::string setting = run.name;
       if (const size_t at = setting.find("seed="); at != std::string::npos)
         setting.erase(at, setting.find_first_not_of("0123456789", at + 5) - at);
       seeds[stage][setting].insert(scene.grains->seed);
@@ -69,7 +69,7 @@ TEST_CASE("every stage has whole periods and three samples, or one packing, or t
 }
 
 TEST_CASE("f_max stays the same in newtons where gravity is varied") {
-  CHECK(for_stage("gravity", [](const CampaignRun&, const Scene& scene) {
+  CHECK(for_stage("gravity", [](const PlannedRun&, const Scene& scene) {
           CHECK(scene.drive.f_max_over_weight * scene.gravity.norm() == Approx(3.0 * 9.81));
         }) == 12);
 }
@@ -79,13 +79,13 @@ TEST_CASE("boxes have grains in proportion to their ground, at one height") {
   const auto per_ground = [](const Scene& scene) {
     return scene.grains->count / (scene.box.length * scene.box.width);
   };
-  CHECK(for_stage("box", [&](const CampaignRun&, const Scene& scene) {
+  CHECK(for_stage("box", [&](const PlannedRun&, const Scene& scene) {
           CHECK(per_ground(scene) == Approx(per_ground(base)).epsilon(1e-3));
           CHECK(scene.box.width == base.box.width);
         }) == 30);
-  CHECK(for_stage("sizes", [&](const CampaignRun& run, const Scene& scene) {
-          INFO(run.planned.name);
-          const bool is_wide = run.planned.name.find("wide") != std::string::npos;
+  CHECK(for_stage("sizes", [&](const PlannedRun& run, const Scene& scene) {
+          INFO(run.name);
+          const bool is_wide = run.name.find("wide") != std::string::npos;
           // similar boxes grow in height as well: as the cube root of the grains
           const double height =
               is_wide ? 1.0 : std::cbrt(scene.grains->count / double(base.grains->count));
@@ -98,7 +98,7 @@ TEST_CASE("boxes have grains in proportion to their ground, at one height") {
 TEST_CASE("replicas share a packing and differ in the seed of their noise alone") {
   std::set<std::string> packings;
   std::set<std::uint64_t> noises;
-  for_stage("replicas", [&](const CampaignRun&, const Scene& scene) {
+  for_stage("replicas", [&](const PlannedRun&, const Scene& scene) {
     CHECK(scene.drive.start_noise == 1e-12);
     packings.insert(packing_key(scene));
     noises.insert(scene.drive.start_noise_seed);
@@ -109,14 +109,14 @@ TEST_CASE("replicas share a packing and differ in the seed of their noise alone"
 
 TEST_CASE("both laws drive the same packings, and LMGC90's rule stops plain sweeps") {
   std::map<std::uint64_t, std::set<std::string>> packings, solvers;
-  for_stage("laws", [&](const CampaignRun&, const Scene& scene) {
+  for_stage("laws", [&](const PlannedRun&, const Scene& scene) {
     packings[scene.grains->seed].insert(packing_key(scene));
     solvers[scene.grains->seed].insert(scene.solver.name);
   });
   CHECK(packings.size() == 10);
   for (const auto& [seed, keys] : packings) CHECK(keys.size() == 1);
   for (const auto& [seed, names] : solvers) CHECK(names.size() == 2);
-  CHECK(for_stage("rule", [](const CampaignRun&, const Scene& scene) {
+  CHECK(for_stage("rule", [](const PlannedRun&, const Scene& scene) {
           CHECK(scene.solver.name == "pgs");
           CHECK(scene.solver.change_tolerance == 1.666e-4);
           CHECK(scene.solver.change_every == 500);
@@ -133,17 +133,17 @@ TEST_CASE("kinds of grains weigh the same, and what a stage varies is in its sce
     return scene.grains->count * sum / all;
   };
   const Scene base = read_scene(find_scene("vibrated_box"));
-  for_stage("shapes", [&](const CampaignRun&, const Scene& scene) {
+  for_stage("shapes", [&](const PlannedRun&, const Scene& scene) {
     CHECK(mass(scene) == Approx(mass(base)).epsilon(1e-3));
   });
-  for_stage("loads", [](const CampaignRun& run, const Scene& scene) {
+  for_stage("loads", [](const PlannedRun& run, const Scene& scene) {
     CHECK(scene.drive.wall_mass_over_grains == 0.1);
-    const bool is_half = run.planned.name.find("half") != std::string::npos;
+    const bool is_half = run.name.find("half") != std::string::npos;
     CHECK(scene.box.length == (is_half ? 0.27 : 0.54));
     CHECK(scene.drive.lid_raise == 0.01);
   });
   for_stage("tightest",
-            [](const CampaignRun&, const Scene& scene) { CHECK(scene.solver.tolerance == 1e-3); });
+            [](const PlannedRun&, const Scene& scene) { CHECK(scene.solver.tolerance == 1e-3); });
 }
 
 TEST_CASE("another box, other values and a part of the runs are asked for by name") {
@@ -151,10 +151,10 @@ TEST_CASE("another box, other values and a part of the runs are asked for by nam
                                    .overrides = {"contact.friction=0.3"},
                                    .only = "force*seed=1"});
   REQUIRE(runs.size() == 5);
-  for (const CampaignRun& run : runs) {
-    CHECK(run.stage == "force");
-    const Scene scene = read_scene(find_scene(run.planned.scene), run.planned.overrides);
-    CHECK(run.planned.scene == "vibrated_box_small");
+  for (const PlannedRun& run : runs) {
+    CHECK(stage_of(run) == "force");
+    const Scene scene = read_scene(find_scene(run.scene), run.overrides);
+    CHECK(run.scene == "vibrated_box_small");
     CHECK(scene.friction == 0.3);
     CHECK(scene.grains->seed == 1);
   }

@@ -8,7 +8,7 @@ using namespace ballast;
 
 namespace {
 
-bool is_of_two(const CampaignRun&, const Scene& scene) { return scene.grains->seed <= 2; }
+bool is_of_two(const PlannedRun&, const Scene& scene) { return scene.grains->seed <= 2; }
 
 PaperSection section_named(PaperData& data, const std::string& name) {
   for (PaperSection& section : make_sections(data, name))
@@ -33,7 +33,7 @@ TEST_CASE("exponents of samples, and what a case changes") {
   law.prefactor = 0.2;
   law.excess = [](const Scene& scene) { return scene.deposit.friction > 0.7 ? 0.1 : 0.3; };
   PaperData data =
-      written(folder.path(), {"deposits"}, law, [](const CampaignRun& run, const Scene& scene) {
+      written(folder.path(), {"deposits"}, law, [](const PlannedRun& run, const Scene& scene) {
         return is_of_two(run, scene) && scene.deposit.lid_pressure_weight > 0.0;
       });
   const PaperSection section = section_named(data, "deposits");
@@ -57,7 +57,7 @@ TEST_CASE("exponents of samples, and what a case changes") {
 TEST_CASE("of fewer than three values or of one sample nothing is made up") {
   const TemporaryFolder folder;
   PaperData data = written(folder.path(), {"deposits"}, steep_law(0.0),
-                           [](const CampaignRun&, const Scene& scene) {
+                           [](const PlannedRun&, const Scene& scene) {
                              return scene.grains->seed == 1 && scene.drive.frequency < 15.0 &&
                                     scene.deposit.friction == 0.4;
                            });
@@ -97,7 +97,7 @@ TEST_CASE("the floor of chaos is the replicas' standard deviation") {
   };
   PaperData data =
       written(folder.path(), {"replicas"}, law,
-              [](const CampaignRun&, const Scene& scene) { return scene.drive.frequency == 10.0; });
+              [](const PlannedRun&, const Scene& scene) { return scene.drive.frequency == 10.0; });
   // standard deviation of 1 ± 0.02, n - 1: 0.02 sqrt(8/7)
   CHECK(found_of(section_named(data, "replicas"), "floor of chaos")
             .starts_with("Δx_max scatters by 2.1 % at 10 Hz (8"));
@@ -141,7 +141,8 @@ TEST_CASE("C against its theory: the force that the grains push with gives it, p
     return 9.0 / (4.0 * M_PI * M_PI) * force * force * (1.0 + wall) / (wall + carried);
   };
   for (const RunRow* row : data.rows({"", "mass"}))
-    CHECK(theory_of(*row) == Approx(theory((*row)["wall_mass_over_grains"])).epsilon(0.02));
+    CHECK((*row)["prefactor_theory"] ==
+          Approx(theory((*row)["wall_mass_over_grains"])).epsilon(0.02));
   const PaperSection section = section_named(data, "theory");
   REQUIRE(section.figures.size() == 1);
   // ten frequencies, three masses of the wall beside the one that they share, five boxes twice

@@ -17,7 +17,7 @@ namespace {
 
 const Selection frequencies{"ν", "frequency"};
 
-bool is_first_sample(const CampaignRun&, const Scene& scene) {
+bool is_first_sample(const PlannedRun&, const Scene& scene) {
   return scene.grains->seed == 1 && (scene.drive.frequency == 5.0 || scene.drive.frequency == 20.0);
 }
 
@@ -71,10 +71,10 @@ TEST_CASE("a row stands for its run: it is drawn as if it were there, and not ma
   CHECK(data.finished() == 0);
   CHECK(data.known_by_row() == 2);
   CHECK(data.records("frequency").empty());
-  const Groups groups = data.groups(frequencies, frequency_of);
+  const Groups groups = data.groups(frequencies, "frequency");
   REQUIRE(groups.size() == 2);
   CHECK(groups[1].value == 20.0);
-  CHECK(rise_of(*groups[1].samples.front()) == rise_of(rows[1]));
+  CHECK((*groups[1].samples.front())["rise"] == rows[1]["rise"]);
   CHECK(data.missing("frequency") == "PARTIAL: 2 of 27 runs of frequency.");
   size_t planned = 0;
   for (const Plan& stage : stages_of(data, "frequency")) planned += stage.runs.size();
@@ -103,17 +103,17 @@ TEST_CASE("rows of another campaign are counted, and drawn where no run stands i
     row.key += "0";
     row["rise"] = 7.0;
   }
-  written(here.path(), {"frequency"}, {}, [](const CampaignRun& run, const Scene& scene) {
+  written(here.path(), {"frequency"}, {}, [](const PlannedRun& run, const Scene& scene) {
     return is_first_sample(run, scene) && scene.drive.frequency == 5.0;
   });
   PaperData data = with_rows(here, {}, rows);
   CHECK(data.foreign() == 2);
   CHECK(data.rows(frequencies).size() == 3);
-  const Groups groups = data.groups(frequencies, frequency_of);
+  const Groups groups = data.groups(frequencies, "frequency");
   REQUIRE(groups.size() == 2);
   REQUIRE(groups[0].samples.size() == 1);
-  CHECK(rise_of(*groups[0].samples.front()) != 7.0);
-  CHECK(rise_of(*groups[1].samples.front()) == 7.0);
+  CHECK((*groups[0].samples.front())["rise"] != 7.0);
+  CHECK((*groups[1].samples.front())["rise"] == 7.0);
   CHECK(data.settings(frequencies).size() == 2);
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("targets are sections and stages; an unknown one is refused with what 
     CHECK_FALSE(page::words(section.name + std::string(".heading")).empty());
     drawn.insert(section.stages.begin(), section.stages.end());
   }
-  for (const CampaignRun& run : data.campaign()) CHECK(drawn.contains(run.stage));
+  for (const PlannedRun& run : data.campaign()) CHECK(drawn.contains(stage_of(run)));
   for (const Plan& plan : stages_of(data, "all")) CHECK(stages.insert(plan.name).second);
   CHECK(stages_of(data, "box").size() == 1);
   CHECK(stages_of(data, "fig10").size() == 3);
@@ -141,17 +141,17 @@ TEST_CASE("what is compared between two groups compares every sample with itself
   rows.reserve(20);
   // ten times the displacement in the second sample: no error of the exponent
   const Groups groups{group_of(5.0, {4.0, 40.0, 7.0}, rows), group_of(10.0, {1.0, 10.0}, rows)};
-  const SampleMean exponent = exponent_by_sample(groups, frequency_of, rise_of, 2);
+  const SampleMean exponent = exponent_by_sample(groups, "frequency", "rise", 2);
   CHECK(exponent.samples == 2);
   CHECK(exponent.mean == Approx(-2.0));
   CHECK(exponent.error == Approx(0.0).margin(1e-12));
-  CHECK(exponent_by_sample(groups, frequency_of, rise_of).samples == 0);
-  const SampleMean change = log_change(groups[0], groups[1], rise_of);
+  CHECK(exponent_by_sample(groups, "frequency", "rise").samples == 0);
+  const SampleMean change = log_change(groups[0], groups[1], "rise");
   CHECK(change.mean == Approx(-std::log(4.0)));
   CHECK(change.samples == 2);
   CHECK(at(groups, 10.0) == &groups[1]);
   CHECK(at(groups, 7.0) == nullptr);
-  CHECK(groups[0].mean(rise_of).mean == Approx(17.0));
+  CHECK(groups[0].mean("rise").mean == Approx(17.0));
 }
 
 TEST_CASE("what a packing has in common is in the scatter between samples, not from run to run") {
@@ -161,13 +161,13 @@ TEST_CASE("what a packing has in common is in the scatter between samples, not f
   const Groups groups{group_of(1.0, {1.0, std::exp(2.2)}, rows),
                       group_of(2.0, {std::exp(5.0), std::exp(6.8)}, rows),
                       group_of(3.0, {std::exp(7.0)}, rows)};
-  const PooledError between = scatter_between(groups, rise_of),
-                    paired = scatter_paired(groups, rise_of);
+  const PooledError between = scatter_between(groups, "rise"),
+                    paired = scatter_paired(groups, "rise");
   CHECK(between.degrees_of_freedom == 2);
   CHECK(between.deviation == Approx(std::sqrt(0.5 * (2.2 * 2.2 / 2.0 + 1.8 * 1.8 / 2.0))));
   CHECK(paired.degrees_of_freedom == 1);
   CHECK(paired.deviation == Approx(0.2));  // differences of 2.2 and 1.8, made of four runs
-  CHECK(scatter_paired({groups[0]}, rise_of).degrees_of_freedom == 0);
+  CHECK(scatter_paired({groups[0]}, "rise").degrees_of_freedom == 0);
 }
 
 TEST_CASE("a selection takes rows by stage and by what they say, to six digits") {
@@ -235,6 +235,7 @@ TEST_CASE("runs.csv has names, units and a row a run, which is read back column 
     if (std::isfinite(was[of.name])) CHECK(row[of.name] == Approx(was[of.name]).epsilon(1e-8));
   }
   CHECK(row["circulation"] == -0.125);
+  CHECK(row["relative_gain"] == row["gain"] / row["density_reference"]);
   CHECK_THROWS_AS(row["no such column"], std::invalid_argument);
 }
 

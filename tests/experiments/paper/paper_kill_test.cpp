@@ -69,7 +69,7 @@ TEST_CASE(
   const TemporaryFolder folder;
   const fs::path whole = folder.path() / "whole", killed = folder.path() / "killed",
                  log = folder.path() / "log";
-  const PlannedRun run = read_campaign(small_campaign()).front().planned;
+  const PlannedRun run = read_campaign(small_campaign()).front();
   const Stopwatch watch;
   REQUIRE(run_and_kill(200.0, fig3(whole), log) == 0);
   const double undisturbed = watch.seconds();

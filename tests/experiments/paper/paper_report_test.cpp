@@ -17,7 +17,7 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
   TemporaryFolder folder;
   PaperData data =
       written(folder.path(), {"frequency", "slowest", "force", "gravity", "mass"}, {},
-              [](const CampaignRun&, const Scene& scene) { return scene.grains->seed == 1; });
+              [](const PlannedRun&, const Scene& scene) { return scene.grains->seed == 1; });
   std::vector<PaperSection> sections;
   for (const char* target : {"fig9", "fig10", "fig11", "fig13"})
     sections.push_back(make_sections(data, target).front());
@@ -32,7 +32,7 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
   CHECK_THAT(plain_words(row_of(sections, "C ~ 0.01").ballast),
              Catch::StartsWith("C = 0.0") && Catch::Contains("m all grains"));
   for (const RunRow& row : data.rows())
-    CHECK(prefactor_of(row) ==
+    CHECK(row["prefactor"] ==
           Approx(PaperLaw{}.prefactor).epsilon(0.03));  // 41 steps in the fastest stroke
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
     CHECK(section.figures.empty());
   }
   PaperData data =
-      written(folder.path(), {"frequency"}, {}, [](const CampaignRun&, const Scene& scene) {
+      written(folder.path(), {"frequency"}, {}, [](const PlannedRun&, const Scene& scene) {
         return scene.drive.frequency >= 5.0 && scene.drive.frequency <= 10.0 &&
                scene.grains->seed <= 2;
       });

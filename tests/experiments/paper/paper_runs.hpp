@@ -91,12 +91,12 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
 inline PaperData written(
     const std::filesystem::path& results, const std::vector<std::string>& stages,
     const PaperLaw& law = {},
-    const std::function<bool(const CampaignRun&, const Scene&)>& is_wanted = {}) {
-  static const std::vector<CampaignRun> campaign = read_campaign({});
-  for (const CampaignRun& run : campaign) {
-    if (std::ranges::count(stages, run.stage) == 0 || is_finished(results, run.planned)) continue;
-    const Scene scene = read_scene(find_scene(run.planned.scene), run.planned.overrides);
-    if (!is_wanted || is_wanted(run, scene)) write_run(results, run.planned, law);
+    const std::function<bool(const PlannedRun&, const Scene&)>& is_wanted = {}) {
+  static const std::vector<PlannedRun> campaign = read_campaign({});
+  for (const PlannedRun& run : campaign) {
+    if (std::ranges::count(stages, stage_of(run)) == 0 || is_finished(results, run)) continue;
+    const Scene scene = read_scene(find_scene(run.scene), run.overrides);
+    if (!is_wanted || is_wanted(run, scene)) write_run(results, run, law);
   }
   return PaperData(campaign, results);
 }
