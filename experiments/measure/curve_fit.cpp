@@ -126,8 +126,6 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
   return fit;
 }
 
-double ExponentialFit::at(double x) const { return amplitude * std::exp(rate * x); }
-
 ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y) {
   const Samples samples = finite_samples(x, y);
   if (samples.count() < 2) return {};
@@ -195,10 +193,6 @@ std::vector<double> holm(std::span<const double> p) {
   return corrected;
 }
 
-double SampleMean::half_width() const { return student_t95(samples - 1) * error; }
-double SampleMean::p() const { return student_p(mean / error, samples - 1); }
-double SampleMean::deviation() const { return error * std::sqrt(static_cast<double>(samples)); }
-
 SampleMean sample_mean(std::span<const double> values) {
   const std::vector<double> finite = finite_of(values);
   SampleMean mean;
@@ -234,15 +228,6 @@ void Points::add(double at, const SampleMean& mean) {
   errors_from += std::max(0, mean.samples - 1);
 }
 
-void Points::add(const Points& others) {
-  x.insert(x.end(), others.x.begin(), others.x.end());
-  y.insert(y.end(), others.y.begin(), others.y.end());
-  error.insert(error.end(), others.error.begin(), others.error.end());
-  errors_from += others.errors_from;
-}
-
-double PowerFit::at(double x) const { return prefactor * std::pow(x, exponent); }
-
 PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
   const auto logarithm = [](double value) { return value > 0.0 ? std::log(value) : not_known; };
   std::vector<double> log_x, log_y;
@@ -259,7 +244,7 @@ PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
   return fit;
 }
 
-Misfit misfit_of(const PowerFit& fit, const Points& points) {
+VarianceRatio misfit_of(const PowerFit& fit, const Points& points) {
   double misses = 0.0, variances = 0.0;
   int counted = 0;
   for (size_t k = 0; k < points.x.size(); ++k) {
@@ -323,10 +308,6 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   return fit;
 }
 
-double WeightedFit::error_at(const Eigen::VectorXd& row) const {
-  return std::sqrt(row.dot(covariance * row));
-}
-
 WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
                          const Eigen::VectorXd& error) {
   // every row in units of its error: then ordinary least squares, by the normal equations
@@ -343,7 +324,7 @@ WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y
   return fit;
 }
 
-Improvement improvement(const WeightedFit& less, const WeightedFit& more) {
+VarianceRatio improvement(const WeightedFit& less, const WeightedFit& more) {
   const int further = less.degrees_of_freedom - more.degrees_of_freedom;
   if (further < 1 || more.degrees_of_freedom < 1) return {};
   const double ratio = (less.chi2 - more.chi2) / further / more.reduced();

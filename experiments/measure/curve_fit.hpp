@@ -4,6 +4,7 @@
 // finite, and answers NaN where there are too few samples or there is no degree of freedom.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
@@ -44,7 +45,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y);
 struct ExponentialFit {
   double amplitude = not_known, rate = not_known;
   double r2 = not_known;
-  double at(double x) const;
+  double at(double x) const { return amplitude * std::exp(rate * x); }
 };
 ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y);
 
@@ -64,9 +65,12 @@ std::vector<double> holm(std::span<const double> p);
 struct SampleMean {
   double mean = not_known, error = not_known;
   int samples = 0;
-  double half_width() const;  ///< of the 95 % confidence interval
-  double p() const;           ///< of a mean so far from zero where there is no difference
-  double deviation() const;   ///< standard deviation of one sample
+  /// Of the 95 % confidence interval.
+  double half_width() const { return student_t95(samples - 1) * error; }
+  /// Of a mean so far from zero where there is no difference.
+  double p() const { return student_p(mean / error, samples - 1); }
+  /// Standard deviation of one sample.
+  double deviation() const { return error * std::sqrt(static_cast<double>(samples)); }
 };
 SampleMean sample_mean(std::span<const double> values);
 
@@ -85,7 +89,6 @@ struct Points {
   int errors_from = 0;        ///< degrees of freedom of all errors together: samples less points
 
   void add(double at, const SampleMean& mean);
-  void add(const Points& others);
 };
 
 /// y = prefactor x^exponent by least squares of log y on log x: every point weighs the same,
@@ -95,22 +98,22 @@ struct PowerFit {
   double half_width = not_known;  ///< of the exponent's 95 % confidence interval (needs 3 points)
   double r2 = not_known;          ///< of the logarithms
   int samples = 0;
-  double at(double x) const;
+  double at(double x) const { return prefactor * std::pow(x, exponent); }
 };
 /// Points that are not finite and positive are left out.
 PowerFit fit_power(std::span<const double> x, std::span<const double> y);
 
-/// How far a law misses points, in their errors.
-struct Misfit {
-  double reduced = not_known;  ///< chi^2 over its degrees of freedom
-  double p = not_known;        ///< of so large a misfit where the law holds
+/// A ratio of two variances, and the probability of so large a one by chance.
+struct VarianceRatio {
+  double ratio = not_known, p = not_known;
 };
-/// Squared residuals of the logarithms in units of the points' squared relative standard errors.
-/// About 1: the law holds within the scatter. Much more: the points leave it by more than their
-/// errors, and the interval of the exponent says how well a line can be drawn, not how well it
-/// holds. The errors are pooled over the points, because an error from three samples is itself
-/// known to a factor of two. NaN with fewer than three points that have errors.
-Misfit misfit_of(const PowerFit& fit, const Points& points);
+/// How far a law misses points: chi^2 over its degrees of freedom, and the p of so large a misfit
+/// where the law holds. Squared residuals of the logarithms in units of the points' squared
+/// relative standard errors. About 1: the law holds within the scatter. Much more: the points leave
+/// it by more than their errors, and the interval of the exponent says how well a line can be
+/// drawn, not how well it holds. The errors are pooled over the points, because an error from three
+/// samples is itself known to a factor of two. NaN with fewer than three points that have errors.
+VarianceRatio misfit_of(const PowerFit& fit, const Points& points);
 
 /// y = C x, C the geometric mean of y/x; its 95 % interval is a factor because the points span
 /// decades.
@@ -146,7 +149,7 @@ struct WeightedFit {
   double reduced() const { return chi2 / degrees_of_freedom; }
   /// A linear combination of the values, with its standard error.
   double at(const Eigen::VectorXd& row) const { return row.dot(value); }
-  double error_at(const Eigen::VectorXd& row) const;
+  double error_at(const Eigen::VectorXd& row) const { return std::sqrt(row.dot(covariance * row)); }
 };
 /// `error`: the standard error of each y, positive. Needs as many points as values.
 WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
@@ -154,9 +157,6 @@ WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y
 
 /// F and its p: does `more`, which has further values, fit better than `less` by more than chance?
 /// The scale of the errors is taken from `more`'s own misses.
-struct Improvement {
-  double ratio = not_known, p = not_known;
-};
-Improvement improvement(const WeightedFit& less, const WeightedFit& more);
+VarianceRatio improvement(const WeightedFit& less, const WeightedFit& more);
 
 }  // namespace ballast

@@ -61,7 +61,7 @@ LogPolynomial polynomial(const std::vector<CurvePoint>& points, int values, doub
   return result;
 }
 
-Misfit misfit_of(const WeightedFit& fit, const PooledError& error) {
+VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error) {
   if (error.degrees_of_freedom < 1) return {};
   return {fit.reduced(), f_p(fit.reduced(), fit.degrees_of_freedom, error.degrees_of_freedom)};
 }
@@ -166,26 +166,25 @@ page::Text percent_words(double deviation) { return page::number(100.0 * deviati
 page::Values words_for(const OneCurve& all) {
   const auto [least, most] = reach_of(all);
   const double c_small = all.curve.at(least) / least, c_large = all.curve.at(most) / most;
-  return {
-      {"points", std::to_string(all.points.size())},
-      {"curve", words_of(all.curve_misfit)},
-      {"line", words_of(all.line_misfit)},
-      {"paired", words_of(all.paired_misfit)},
-      {"between_error", percent_words(all.between.deviation)},
-      {"between_freedom", std::to_string(all.between.degrees_of_freedom)},
-      {"paired_error", percent_words(all.paired.deviation)},
-      {"bend", "F " + page::number(all.bend.ratio, 2) + ", p " + words_of_p(all.bend.p)},
-      {"third", "F " + page::number(all.third.ratio, 2) + ", p " + words_of_p(all.third.p)},
-      {"offsets", "F " + page::number(all.offsets.ratio, 2) + ", p " + words_of_p(all.offsets.p)},
-      {"offset", percent_words(all.largest_offset)},
-      {"least", page::number(to_mm * least)},
-      {"most", page::number(to_mm * most)},
-      {"c_small", page::number(c_small)},
-      {"c_large", page::number(c_large)},
-      {"n_small", page::number(all.curve.fit.at(all.curve.slope_row(least)))},
-      {"n_large", page::number(all.curve.fit.at(all.curve.slope_row(most)))},
-      {"f_small", page::number(force_of_prefactor(c_small), 2)},
-      {"f_large", page::number(force_of_prefactor(c_large), 2)}};
+  return {{"points", std::to_string(all.points.size())},
+          {"curve", words_of(all.curve_misfit)},
+          {"line", words_of(all.line_misfit)},
+          {"paired", words_of(all.paired_misfit)},
+          {"between_error", percent_words(all.between.deviation)},
+          {"between_freedom", std::to_string(all.between.degrees_of_freedom)},
+          {"paired_error", percent_words(all.paired.deviation)},
+          {"bend", words_of(all.bend, "F")},
+          {"third", words_of(all.third, "F")},
+          {"offsets", words_of(all.offsets, "F")},
+          {"offset", percent_words(all.largest_offset)},
+          {"least", page::number(to_mm * least)},
+          {"most", page::number(to_mm * most)},
+          {"c_small", page::number(c_small)},
+          {"c_large", page::number(c_large)},
+          {"n_small", page::number(all.curve.fit.at(all.curve.slope_row(least)))},
+          {"n_large", page::number(all.curve.fit.at(all.curve.slope_row(most)))},
+          {"f_small", page::number(force_of_prefactor(c_small), 2)},
+          {"f_large", page::number(force_of_prefactor(c_large), 2)}};
 }
 
 // Power laws and lines through the origin: Figs. 9, 10 and 11, C against its theory and against the
@@ -280,7 +279,7 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
               .log_x = true,
               .log_y = true};
   std::set<std::string> seen;  // equal runs of several stages and families are one point
-  Points all;
+  Groups drawn;
   for (const Series& family : law.families) {
     Groups distinct;
     for (Group& group : data.settings(family.selection))
@@ -291,7 +290,7 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
     const Points points =
         points_of(distinct, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
     if (points.x.empty()) continue;
-    all.add(points);
+    drawn.insert(drawn.end(), distinct.begin(), distinct.end());
     panel.curves.push_back(curve_of(points, family.selection.name, family.ink, family.shape));
     const PowerFit fit = fit_power(points.x, points.y);
     const Proportion ratio = fit_proportion(points.x, points.y);
@@ -300,9 +299,10 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
                           words_of(misfit_of(fit, points)),
                           law.exponent == 1.0 ? words_of(ratio) : page::Text("–")});
   }
+  const Points all = points_of(drawn, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
   const PowerFit fit = fit_power(all.x, all.y);
   if (!std::isfinite(fit.exponent)) return;
-  const Misfit misfit = misfit_of(fit, all);
+  const VarianceRatio misfit = misfit_of(fit, all);
   const Proportion ratio = fit_proportion(all.x, all.y);
   const page::Values words{{"points", std::to_string(all.x.size())},
                            {"exponent", words_of(fit)},

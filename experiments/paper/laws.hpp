@@ -41,11 +41,11 @@ struct OneCurve {
   PooledError between;             ///< ln Delta x_max of a sample about its point's mean
   PooledError paired;              ///< the same when each packing's mean offset is taken out
   LogPolynomial line, curve;
-  Misfit line_misfit, curve_misfit;  ///< with the errors `between`
-  Misfit paired_misfit;              ///< of the curve, with the errors `paired`
-  Improvement bend;                  ///< of the curve over the line
-  Improvement third;                 ///< of a cubic over the curve
-  Improvement offsets;               ///< of a factor for each series over the curve
+  VarianceRatio line_misfit, curve_misfit;  ///< with the errors `between`
+  VarianceRatio paired_misfit;              ///< of the curve, with the errors `paired`
+  VarianceRatio bend;                       ///< of the curve over the line
+  VarianceRatio third;                      ///< of a cubic over the curve
+  VarianceRatio offsets;                    ///< of a factor for each series over the curve
   double largest_offset = not_known, offset_error = not_known;  ///< of a series, in ln Delta x_max
 
   bool is_known() const { return points.size() > 4; }

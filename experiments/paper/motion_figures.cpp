@@ -212,7 +212,7 @@ Curve law_curve(const PeakedRate& law, const Points& points, const page::Text& t
 }
 
 /// How far Eq. 5 misses the rates, with `parameters` of it fitted.
-Misfit misfit_of(const PeakedRate& law, const Points& points, int parameters) {
+VarianceRatio misfit_of(const PeakedRate& law, const Points& points, int parameters) {
   double misses = 0.0, variances = 0.0;
   const auto count = static_cast<double>(points.x.size());
   for (size_t k = 0; k < points.x.size(); ++k) {
@@ -242,7 +242,7 @@ void add_falling_branch(const Groups& groups, PaperSection& section) {
   for (const Group& group : groups)
     if (group.value >= paper_peak) falling.add(group.value, group.mean("rate"));
   const PowerFit fit = fit_power(falling.x, falling.y);
-  const Misfit misfit = misfit_of(fit, falling);
+  const VarianceRatio misfit = misfit_of(fit, falling);
   section.claim("fig13.falling", {{"exponent", words_of(fit)}, {"misfit", words_of(misfit)}},
                 PaperRange::exponent(-1.0), found(fit, misfit.p));
 }
@@ -393,14 +393,14 @@ void fill_rates(PaperData& data, PaperSection& section) {
     panel.curves.push_back(curve_of(curve, window.title, window.ink, window.shape));
     const std::string name = window.name;
     const PeakedRate free = fit_peaked_rate(curve.x, curve.y);
-    const Misfit free_misfit = misfit_of(free, curve, 2);
+    const VarianceRatio free_misfit = misfit_of(free, curve, 2);
     words[name] = words_of(free);
     words[name + "_misfit"] = words_of(free_misfit);
     section.claim("fig13." + name, words, PaperRange::roughly(paper_peak),
                   found_peak(free, curve, free_misfit.p));
     if (!std::isfinite(gain.mean)) continue;
     const PeakedRate fixed = fit_peaked_rate(curve.x, curve.y, gain.mean);
-    const Misfit fixed_misfit = misfit_of(fixed, curve, 1);
+    const VarianceRatio fixed_misfit = misfit_of(fixed, curve, 1);
     words[name + "_fixed"] = words_of(fixed);
     words[name + "_fixed_misfit"] = words_of(fixed_misfit);
     section.claim("fig13." + name + "_fixed", words, PaperRange::roughly(paper_peak),

@@ -1,6 +1,7 @@
 #include "experiments/paper/sections.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -18,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double least_law_p = 0.01;
 
 constexpr const char* every_section = "all";
@@ -98,14 +98,6 @@ PaperRange PaperRange::widened() const {
   const double width = high - low;
   return std::isfinite(width) ? PaperRange{low - width, high + width} : *this;
 }
-
-PaperRange PaperRange::about(double value, double half_width) {
-  return {value - half_width, value + half_width};
-}
-PaperRange PaperRange::exponent(double value) { return about(value, 0.1); }
-PaperRange PaperRange::roughly(double value) { return about(value, 0.3 * std::abs(value)); }
-PaperRange PaperRange::at_most(double value) { return {-unbounded, value}; }
-PaperRange PaperRange::at_least(double value) { return {value, unbounded}; }
 
 Found found(const SampleMean& mean) {
   const double half = mean.half_width();
@@ -234,12 +226,12 @@ void PaperSection::draw(const std::string& name, Figure plot, const page::Values
 void PaperSection::claim(const std::string& name, const page::Values& values,
                          const PaperRange& range, const Found& found) {
   const std::vector<page::Text> cells = parts_of(page::words(name, values), "||");
-  rows.push_back({cells.at(0), cells.at(1), cells.at(2), range, found, agreement_of(range, found)});
+  claims.push_back({cells.at(0), cells.at(1), word_of(agreement_of(range, found)), cells.at(2),
+                    words_of(range), words_of(found)});
 }
 
 void PaperSection::report(const std::string& name, const page::Values& values) {
-  const std::vector<page::Text> cells = parts_of(page::words(name, values), "||");
-  findings.push_back({cells.at(0), cells.at(1)});
+  findings.push_back(parts_of(page::words(name, values), "||"));
 }
 
 void PaperSection::add(page::Table table) {
@@ -252,29 +244,23 @@ page::Text words_of(const SampleMean& mean, double factor) {
 
 page::Text words_of(const PowerFit& fit) {
   if (!std::isfinite(fit.exponent)) return "–";
-  page::Text text = page::number(fit.exponent);
-  if (std::isfinite(fit.half_width))
-    text += std::string(" ") +
-            page::interval(fit.exponent - fit.half_width, fit.exponent + fit.half_width);
-  return text + " (R² " + page::number(fit.r2, 4) + ", " + std::to_string(fit.samples) + " points)";
+  return words_of(found(fit, 1.0)) + " (R² " + page::number(fit.r2, 4) + ", " +
+         std::to_string(fit.samples) + " points)";
 }
 
 page::Text words_of(const Proportion& fit) {
   return page::number(fit.factor) + " " + page::interval(fit.low, fit.high);
 }
 
-page::Text words_of(const Misfit& misfit) {
-  return "χ²/dof " + page::number(misfit.reduced, 2) + ", p " + words_of_p(misfit.p);
+page::Text words_of(const VarianceRatio& found, const char* name) {
+  return name + (" " + page::number(found.ratio, 2)) + ", p " + words_of_p(found.p);
 }
 
 page::Text words_of_p(double p) { return p < 1e-4 ? page::Text("< 1e-4") : page::number(p, 2); }
 
 page::Text words_with_interval(const SampleMean& mean) {
   if (!std::isfinite(mean.mean)) return "–";
-  page::Text words = page::number(mean.mean);
-  if (mean.samples < 2) return words + " (one sample)";
-  const double half = mean.half_width();
-  return words + " " + page::interval(mean.mean - half, mean.mean + half);
+  return words_of(found(mean)) + (mean.samples < 2 ? " (one sample)" : "");
 }
 
 page::Text words_of_change(const SampleMean& change) {
@@ -338,11 +324,8 @@ page::Page paper_page(const std::vector<PaperSection>& sections,
   page::Table agreement = page::words_table("paper.agreement"),
               beyond = page::words_table("paper.beyond");
   for (const PaperSection& section : sections) {
-    for (const AgreementRow& row : section.rows)
-      agreement.rows.push_back({row.place, row.paper, word_of(row.agreement), row.ballast,
-                                words_of(row.range), words_of(row.found)});
-    for (const BeyondRow& finding : section.findings)
-      beyond.rows.push_back({finding.what, finding.found});
+    std::ranges::copy(section.claims, std::back_inserter(agreement.rows));
+    std::ranges::copy(section.findings, std::back_inserter(beyond.rows));
   }
   page.add({"origin", "What was run", {page::List{origin}}});
   page.add({"agreement", "Paper, Ballast, agreement", {page::words("paper.rule"), agreement}});

@@ -33,12 +33,14 @@ const char* word_of(Agreement agreement);
 struct PaperRange {
   double low, high;
 
-  static PaperRange about(double value, double half_width);
-  static PaperRange exponent(double value);  ///< 0.1 to both sides
+  static PaperRange about(double value, double half_width) {
+    return {value - half_width, value + half_width};
+  }
+  static PaperRange exponent(double value) { return about(value, 0.1); }
   /// A number written with "~", or "almost": 30 % to both sides.
-  static PaperRange roughly(double value);
-  static PaperRange at_most(double value);
-  static PaperRange at_least(double value);
+  static PaperRange roughly(double value) { return about(value, 0.3 * std::abs(value)); }
+  static PaperRange at_most(double value) { return {-HUGE_VAL, value}; }
+  static PaperRange at_least(double value) { return {value, HUGE_VAL}; }
 
   bool holds(double value) const { return low <= value && value <= high; }
   PaperRange widened() const;  ///< three times as wide, about the same middle
@@ -61,21 +63,6 @@ page::Text words_of(const PaperRange& range);
 /// "−1.70 [−1.74, −1.66]", and what keeps it from agreeing besides its value.
 page::Text words_of(const Found& found);
 
-/// One row of the table paper | Ballast | agreement.
-struct AgreementRow {
-  page::Text place;    ///< "Fig. 9"
-  page::Text paper;    ///< what the paper says
-  page::Text ballast;  ///< what was measured, with its interval
-  PaperRange range;    ///< what the paper's words are taken as
-  Found found;         ///< what the verdict was made from
-  Agreement agreement = Agreement::reported;
-};
-
-/// A result beyond the paper: nothing to agree with.
-struct BeyondRow {
-  page::Text what, found;
-};
-
 struct PaperSection {
   std::string id = {};  ///< "fig9"
   page::Text heading = {};
@@ -83,17 +70,18 @@ struct PaperSection {
   std::vector<page::Text> text = {};   ///< paragraphs
   std::vector<page::Picture> figures = {};
   std::vector<page::Table> tables = {};
-  std::vector<AgreementRow> rows = {};
-  std::vector<BeyondRow> findings = {};
+  /// Rows of the report's first tables: words("paper.agreement"), and words("paper.beyond") for
+  /// what is beyond the paper, where there is nothing to agree with.
+  std::vector<std::vector<page::Text>> claims = {}, findings = {};
 
   /// A figure with its captions: words(name.paper) and words(name.found). Unless `plot` has one,
   /// its title is words(name.title); its files are called `name`, with two digits for "fig9".
   void draw(const std::string& name, Figure plot, const page::Values& values = {});
-  /// A row of the table of agreement, judged by the one rule. words(name) is "place || what the
-  /// paper says || what was measured".
+  /// A claim, judged by the one rule. words(name) is "place || what the paper says || what was
+  /// measured".
   void claim(const std::string& name, const page::Values& values, const PaperRange& range,
              const Found& found);
-  /// A row of the table of what is beyond the paper. words(name) is "what || what was measured".
+  /// A finding. words(name) is "what || what was measured".
   void report(const std::string& name, const page::Values& values);
   /// A table, unless it has no rows.
   void add(page::Table table);
@@ -106,7 +94,7 @@ page::Text words_of(const PowerFit& fit);
 /// "0.03 [0.02, 0.04]": with its 95 % interval.
 page::Text words_of(const Proportion& fit);
 /// "χ²/dof 3.2, p 0.004"; what a reader has to know about it: words("misfit").
-page::Text words_of(const Misfit& misfit);
+page::Text words_of(const VarianceRatio& found, const char* name = "χ²/dof");
 /// "0.004", "< 1e-4"
 page::Text words_of_p(double p);
 /// "−1.00 [−1.2, −0.8]": the 95 % interval by Student's t; without one where there is one sample.

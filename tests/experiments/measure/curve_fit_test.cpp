@@ -228,13 +228,13 @@ TEST_CASE("chi^2 says whether points lie on a power law within their errors") {
     CHECK(points.errors_from == 8);
     return misfit_of(fit_power(points.x, points.y), points);
   };
-  CHECK(misfit(0.0, 0.1).reduced == Approx(0.0).margin(1e-12));
+  CHECK(misfit(0.0, 0.1).ratio == Approx(0.0).margin(1e-12));
   // four residuals of one error each over two degrees of freedom
-  CHECK(misfit(0.1, 0.1).reduced == Approx(2.0));
+  CHECK(misfit(0.1, 0.1).ratio == Approx(2.0));
   CHECK(misfit(0.1, 0.1).p == Approx(f_p(2.0, 2, 8)));
-  CHECK(misfit(0.1, 0.01).reduced == Approx(200.0));
+  CHECK(misfit(0.1, 0.01).ratio == Approx(200.0));
   CHECK(misfit(0.1, 0.01).p < 1e-6);
-  CHECK(std::isnan(misfit(0.0, not_known).reduced));
+  CHECK(std::isnan(misfit(0.0, not_known).ratio));
 }
 
 TEST_CASE("Student's t, F and chi squared have the p and the quantiles of the tables") {

@@ -70,7 +70,7 @@ TEST_CASE("a curve that bends is one curve, no line, and its base counts once") 
   CHECK(all.bend.p < 1e-3);
   CHECK(all.third.p > 0.01);
   CHECK(all.offsets.p > 0.01);
-  CHECK(all.line_misfit.reduced > all.curve_misfit.reduced);
+  CHECK(all.line_misfit.ratio > all.curve_misfit.ratio);
   // packings differ by 10 %, which is not in the scatter from run to run
   CHECK(all.between.deviation > 0.08);
   CHECK(all.paired.deviation == Approx(scatter).epsilon(0.35));

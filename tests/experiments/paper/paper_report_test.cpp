@@ -24,13 +24,13 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
   for (const char* claim :
        {"Δx_max ~ ν⁻²", "v_max ~ ν⁻¹", "Δx_max ~ f_max⁻¹", "Δx_max ~ g²", "Δx_max ~ m/(m + m_w)",
         "one line through all series", "maximum at ν_c ~ 10 Hz; both parameters free"})
-    CHECK(row_of(sections, claim).agreement == Agreement::agrees);
+    CHECK_THAT(judged(sections, claim), Catch::StartsWith("agrees: "));
   // one sample has no interval
-  CHECK(row_of(sections, "Δρ_max/ρ₀ ~ 0.0025").agreement == Agreement::reported);
-  CHECK_THAT(plain_words(row_of(sections, "Δx_max ~ ν⁻²").ballast), Catch::StartsWith("−2.0"));
-  CHECK_THAT(plain_words(row_of(sections, "Δx_max ~ g²").ballast), Catch::StartsWith("2.0"));
-  CHECK_THAT(plain_words(row_of(sections, "C ~ 0.01").ballast),
-             Catch::StartsWith("C = 0.0") && Catch::Contains("m all grains"));
+  CHECK_THAT(judged(sections, "Δρ_max/ρ₀ ~ 0.0025"), Catch::StartsWith("reported: "));
+  CHECK_THAT(judged(sections, "Δx_max ~ ν⁻²"), Catch::StartsWith("agrees: −2.0"));
+  CHECK_THAT(judged(sections, "Δx_max ~ g²"), Catch::StartsWith("agrees: 2.0"));
+  CHECK_THAT(judged(sections, "C ~ 0.01"),
+             Catch::Contains(": C = 0.0") && Catch::Contains("m all grains"));
   for (const RunRow& row : data.rows())
     CHECK(row["prefactor"] ==
           Approx(PaperLaw{}.prefactor).epsilon(0.03));  // 41 steps in the fastest stroke
@@ -44,7 +44,7 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
   for (const PaperSection& section : empty) {
     INFO(section.id);
     CHECK_FALSE(section.notes.empty());
-    CHECK(section.rows.empty());
+    CHECK(section.claims.empty());
     CHECK(section.figures.empty());
   }
   PaperData data =
@@ -87,8 +87,7 @@ TEST_CASE("both pages say the same words, and what was found stands before the s
                       .caption = {"what the paper says", "falls | too"},
                       .files = page::Text("PDF", 0, "figures/fig09.pdf")}};
   section.tables = {{"Means", {"ν", "a|b"}, {{"1", page::with_error(1.5, 0.25)}}}};
-  const Found sharp{.value = -2.0, .low = -2.01, .high = -1.99};
-  section.rows = {{"Fig. 9", "y", "no", PaperRange::exponent(1.0), sharp, Agreement::differs}};
+  section.claims = {{"Fig. 9", "y", "DIFFERS", "no", "0.9 … 1.1", "−2.00 [−2.01, −1.99]"}};
   section.findings = {{"beyond", "something"}};
   PaperSection other = section;
   other.id = "fig10";

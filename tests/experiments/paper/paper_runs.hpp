@@ -101,20 +101,19 @@ inline PaperData written(
   return PaperData(campaign, results);
 }
 
-/// The first row of this claim, in plain words.
-inline const AgreementRow& row_of(const std::vector<PaperSection>& sections,
-                                  const std::string& paper) {
+/// Verdict and what was measured of the first claim that the paper says in these plain words.
+inline std::string judged(const std::vector<PaperSection>& sections, const std::string& paper) {
   for (const PaperSection& section : sections)
-    for (const AgreementRow& row : section.rows)
-      if (plain_words(row.paper) == paper) return row;
+    for (const std::vector<page::Text>& row : section.claims)
+      if (plain_words(row[1]) == paper) return plain_words(row[2]) + ": " + plain_words(row[3]);
   FAIL("no row says " + paper);
-  return sections.front().rows.front();
+  return {};
 }
 
 /// What was found, in plain words, of the finding whose first part begins so.
 inline std::string found_of(const PaperSection& section, const std::string& what) {
-  for (const BeyondRow& row : section.findings)
-    if (plain_words(row.what).starts_with(what)) return plain_words(row.found);
+  for (const std::vector<page::Text>& row : section.findings)
+    if (plain_words(row[0]).starts_with(what)) return plain_words(row[1]);
   FAIL("no finding of " + what);
   return {};
 }

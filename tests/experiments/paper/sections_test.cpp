@@ -57,16 +57,17 @@ TEST_CASE(
   PaperSection section;
   section.claim("fig8.collapse", {{"raw", "0.5"}, {"scaled", "0.1"}}, PaperRange::at_most(0.1),
                 {.value = 0.2, .low = 0.19, .high = 0.21});
-  REQUIRE(section.rows.size() == 1);
-  CHECK(section.rows[0].place == page::Text("Fig. 8"));
-  CHECK(section.rows[0].paper == page::Text("orbits at 5 and 10 Hz collapse"));
-  CHECK_THAT(plain_words(section.rows[0].ballast), Catch::StartsWith("distance raw 0.5, scaled"));
-  CHECK(section.rows[0].agreement == Agreement::differs);
-  CHECK(std::string(word_of(Agreement::differs)) == "DIFFERS");
+  REQUIRE(section.claims.size() == 1);
+  REQUIRE(section.claims[0].size() == 6);
+  CHECK(section.claims[0][0] == page::Text("Fig. 8"));
+  CHECK(section.claims[0][1] == page::Text("orbits at 5 and 10 Hz collapse"));
+  CHECK(section.claims[0][2] == page::Text("DIFFERS"));
+  CHECK_THAT(plain_words(section.claims[0][3]), Catch::StartsWith("distance raw 0.5, scaled"));
   section.report("curve.bend", {{"bend", "nothing"}});
   REQUIRE(section.findings.size() == 1);
-  CHECK(plain_words(section.findings[0].what) == "the curve bends");
-  CHECK(section.rows.size() == 1);
+  REQUIRE(section.findings[0].size() == 2);
+  CHECK(plain_words(section.findings[0][0]) == "the curve bends");
+  CHECK(section.claims.size() == 1);
 }
 
 TEST_CASE("the one rule of the verdicts, case by case") {
