@@ -326,7 +326,7 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
   for (const BenchStep& step : steps) fastest = std::max(fastest, std::abs(step.record.wall_v));
   for (const BenchStep& step : steps) {
     const double v = step.record.wall_v;
-    const bool is_jammed = std::abs(v) <= WallSettings{}.jammed_speed * fastest;
+    const bool is_jammed = std::abs(v) <= jammed_speed * fastest;
     groups["all"].push_back(&step);
     groups[is_jammed ? "jammed" : v > 0.0 ? "active" : "passive"].push_back(&step);
   }

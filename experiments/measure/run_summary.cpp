@@ -125,10 +125,9 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
   return compaction;
 }
 
-void summarise_wall(std::span<const StepRecord> steps, const WallSettings& settings,
-                    RunSummary& summary) {
+void summarise_wall(std::span<const StepRecord> steps, RunSummary& summary) {
   const RunFacts& facts = summary.facts;
-  summary.wall = wall_cycles(steps, facts.frequency, facts.step, settings);
+  summary.wall = wall_cycles(steps, facts.frequency, facts.step);
   summary.jammed = jammed_state(steps, summary.wall, facts.f_min, facts.f_max);
   summary.contraction = first_contraction(steps, facts.frequency);
   const std::vector<WallPeriod>& periods = summary.wall.periods;
@@ -137,8 +136,7 @@ void summarise_wall(std::span<const StepRecord> steps, const WallSettings& setti
   summary.speed_in = over_periods(periods, &WallPeriod::speed_in);
   summary.speed_out = over_periods(periods, &WallPeriod::speed_out);
   summary.prefactor = summary.rise.mean / eq3_displacement(facts);
-  summary.law =
-      force_law(steps, summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity, settings);
+  summary.law = force_law(steps, summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity);
   summary.error_counted = error_after_transient(steps, facts);
 }
 
@@ -288,8 +286,7 @@ Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summ
                  {0.25 * length, 0.75 * length, 0.25 * top, 0.75 * top}, facts.largest_size);
 }
 
-RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts,
-                     const WallSettings& settings) {
+RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts) {
   RunSummary summary;
   summary.facts = facts;
   summary.steps = static_cast<long>(steps.size());
@@ -304,7 +301,7 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts,
   summary.energy = energy_balance(steps);
   // what a driven wall and a packing have besides
   if (summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
-    summarise_wall(steps, settings, summary);
+    summarise_wall(steps, summary);
   if (summary.facts.has_packing)
     summary.compaction = compaction_of(steps, summary.wall.periods, summary.facts);
   return summary;

@@ -14,7 +14,6 @@
 //   rho_0               solid fraction at t = 0.2 s; sec. 5
 //   compaction rate     (rho(t_b) - rho(t_a)) / (rho_0 (t_b - t_a)) over whole periods; Eq. 4,
 //                       Fig. 13
-//   dissipation         energy lost in contacts per period
 //   Eq. 3's right side  m/(m + m_w) . m g/f_max . g/nu^2; Eq. 3, Fig. 11
 //   C of Eq. 3          Delta x_max over that
 // clang-format on
@@ -202,8 +201,7 @@ struct RunSummary {
 /// box, or no frame stands at a period's ends.
 Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summary);
 
-RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts,
-                     const WallSettings& settings = {});
+RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts);
 
 // What a run's user must be told without asking: steps that missed their tolerance, overlaps that
 // can be seen, energy that no law of contact gives. And what to do about each.

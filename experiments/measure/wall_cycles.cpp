@@ -85,15 +85,16 @@ bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, do
 }
 
 void find_phases(std::span<const StepRecord> steps, double duration_of_period, double h,
-                 const WallSettings& settings, WallCycles& cycles) {
+                 WallCycles& cycles) {
   const double transient = transient_of(1.0 / duration_of_period);
   const size_t first = first_after(steps, transient, h);
   // what is slow is slow beside the fastest motion after the transient
   std::vector<double> speed;
   for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
   cycles.v_peak = statistics(speed).max;
-  const double limit = settings.jammed_speed * cycles.v_peak;
-  const size_t least = static_cast<size_t>(settings.jammed_least * duration_of_period / h);
+  const double limit = jammed_speed * cycles.v_peak;
+  // what is slow for less than 4 % of a period only turns
+  const size_t least = static_cast<size_t>(0.04 * duration_of_period / h);
   bool has_moved = false;  // a wall that rests at the end of the transient has no phase yet, unless
                            // it is jammed since
   for (size_t k = first; k < steps.size(); ++k) {
@@ -132,14 +133,14 @@ size_t first_after(std::span<const StepRecord> steps, double t, double h) {
 }
 
 WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double h,
-                       const WallSettings& settings) {
+                       double smoothing) {
   if (!(frequency > 0.0) || !(h > 0.0))
     throw std::invalid_argument("wall cycles need a positive frequency and step");
   const double duration_of_period = 1.0 / frequency;
   // Per step the force is noise of the solver and of single impacts: both curves are smoothed.
   WallCycles cycles;
   // No wider than a twentieth of a period: the stroke itself must not be smoothed away.
-  cycles.smoothing = std::min(settings.smoothing, duration_of_period / 20.0);
+  cycles.smoothing = std::min(smoothing, duration_of_period / 20.0);
   const int width = static_cast<int>(std::lround(cycles.smoothing / h));
   cycles.smoothing_samples = static_cast<size_t>(width);
   cycles.force = low_pass(record_column(steps, &StepRecord::wall_force), width);
@@ -159,7 +160,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   }
   cycles.loop_last = cycles.periods.size();
   cycles.loop_first = cycles.loop_last - std::min<size_t>(cycles.loop_last, 4);
-  find_phases(steps, duration_of_period, h, settings, cycles);
+  find_phases(steps, duration_of_period, h, cycles);
   return cycles;
 }
 
@@ -191,7 +192,7 @@ JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cy
 }
 
 ForceLaw force_law(std::span<const StepRecord> steps, const WallCycles& cycles, double grain_mass,
-                   double wall_mass, double gravity, const WallSettings& settings) {
+                   double wall_mass, double gravity, double fit_from, double fit_to) {
   struct Samples {
     std::vector<double> place, force, load;
   } active, passive;
@@ -203,7 +204,7 @@ ForceLaw force_law(std::span<const StepRecord> steps, const WallCycles& cycles, 
       const bool rises = k <= period.peak;
       const double from = rises ? period.x_before : period.x_after, stroke = period.x_peak - from,
                    xi = steps[k].wall_x - from;
-      if (!(xi >= settings.fit_from * stroke && xi <= settings.fit_to * stroke)) continue;
+      if (!(xi >= fit_from * stroke && xi <= fit_to * stroke)) continue;
       const WallPhase phase = rises ? WallPhase::active : WallPhase::passive;
       const size_t towards_jam = rises ? k - width : k + width;
       if (cycles.phase[k] != phase || cycles.phase[towards_jam] != phase) continue;

@@ -49,13 +49,8 @@ double transient_of(double frequency);
 /// First sample later than t, with a quarter of a step for the rounding of multiples of h.
 size_t first_after(std::span<const StepRecord> steps, double t, double h);
 
-struct WallSettings {
-  double smoothing = 4e-3;     ///< width of the low-pass on f_g and v [s], but at most 1/20 period
-  double jammed_speed = 0.02;  ///< of v_peak
-  double jammed_least = 0.04;  ///< of a period: what is slow for a shorter time only turns
-  /// Part of each stroke that is fitted: without the transients at both ends.
-  double fit_from = 0.1, fit_to = 0.9;
-};
+/// What is no faster than this part of the fastest is slow.
+inline constexpr double jammed_speed = 0.02;
 
 /// One whole period of the load, (begin, end], from the load's falling mean to the next.
 struct WallPeriod {
@@ -85,9 +80,10 @@ struct WallCycles {
 };
 
 /// `frequency` of the load [Hz], `step` h [s]; both must be positive (std::invalid_argument).
-/// Without a whole period after the transient `periods` is empty.
+/// `smoothing`: width of the low-pass on f_g and v [s], but at most 1/20 period. Without a whole
+/// period after the transient `periods` is empty.
 WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double step,
-                       const WallSettings& settings = {});
+                       double smoothing = 4e-3);
 
 /// The jammed state where the load is above its mean (with the load below, the wall is about to
 /// leave).
@@ -114,8 +110,8 @@ struct ForceLaw {
   double prefactor = not_known;     ///< C by the theory
 };
 /// m of all grains and m_w [kg], g [m/s^2]. `push`, `carried_mass` and `prefactor` are not known
-/// where w is not within [0, 1).
+/// where w is not within [0, 1). Usually a stroke is fitted without the transients at both ends.
 ForceLaw force_law(std::span<const StepRecord> steps, const WallCycles& cycles, double grain_mass,
-                   double wall_mass, double gravity, const WallSettings& settings = {});
+                   double wall_mass, double gravity, double fit_from = 0.1, double fit_to = 0.9);
 
 }  // namespace ballast

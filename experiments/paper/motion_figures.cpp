@@ -89,9 +89,8 @@ page::Table branch_table(const std::vector<MotionRun>& runs) {
 /// line.
 double end_steepness(const MotionRun& run) {
   const RunFacts& facts = run.summary.facts;
-  const ForceLaw last_tenth =
-      force_law(run.data.steps, run.summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity,
-                {.fit_from = 0.0, .fit_to = 0.1});
+  const ForceLaw last_tenth = force_law(run.data.steps, run.summary.wall, facts.grain_mass,
+                                        facts.wall_mass, facts.gravity, 0.0, 0.1);
   return last_tenth.passive.slope / run.summary.law.passive.slope;
 }
 

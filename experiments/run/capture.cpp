@@ -64,7 +64,7 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
   captured.time = state.time;
   // As wall_cycles has it, but from what is known at the step: at rest is what is slow beside the
   // fastest so far.
-  const bool is_slow = std::abs(record.wall_v) <= WallSettings{}.jammed_speed * fastest_wall_;
+  const bool is_slow = std::abs(record.wall_v) <= jammed_speed * fastest_wall_;
   captured.phase = fastest_wall_ == 0.0  ? "none"
                    : is_slow             ? "jammed"
                    : record.wall_v > 0.0 ? "active"

@@ -17,16 +17,18 @@ SyntheticBox bare_box() {
 
 TEST_CASE("the loop's fits give back the law it was made from") {
   const SyntheticBox box = bare_box();
-  WallSettings unsmoothed;
-  unsmoothed.smoothing = 0.0;
-  const RunSummary summary = summarise(synthetic_box(box), facts_of(box), unsmoothed);
-  REQUIRE(summary.wall.periods.size() == 3);
-  CHECK(summary.law.active.amplitude == Approx(box.active_force).epsilon(1e-6));
-  CHECK(summary.law.active.rate == Approx(box.active_rate).epsilon(1e-5));
-  CHECK(summary.law.active.r2 == Approx(1.0).epsilon(1e-9));
-  CHECK(summary.law.passive.offset == Approx(box.passive_force).epsilon(1e-9));
-  CHECK(summary.law.passive.slope == Approx(-box.passive_slope).epsilon(1e-9));
-  CHECK(summary.law.passive.r2 == Approx(1.0).epsilon(1e-9));
+  const auto steps = synthetic_box(box);
+  const RunFacts facts = facts_of(box);
+  const WallCycles unsmoothed = wall_cycles(steps, facts.frequency, facts.step, 0.0);
+  REQUIRE(unsmoothed.periods.size() == 3);
+  const ForceLaw law =
+      force_law(steps, unsmoothed, facts.grain_mass, facts.wall_mass, facts.gravity);
+  CHECK(law.active.amplitude == Approx(box.active_force).epsilon(1e-6));
+  CHECK(law.active.rate == Approx(box.active_rate).epsilon(1e-5));
+  CHECK(law.active.r2 == Approx(1.0).epsilon(1e-9));
+  CHECK(law.passive.offset == Approx(box.passive_force).epsilon(1e-9));
+  CHECK(law.passive.slope == Approx(-box.passive_slope).epsilon(1e-9));
+  CHECK(law.passive.r2 == Approx(1.0).epsilon(1e-9));
 }
 
 TEST_CASE("with noise of 25 % per step the smoothed loop still has the same fits") {

@@ -76,11 +76,9 @@ TEST_CASE("a frequency or a step that is not positive is refused") {
 TEST_CASE("a carried mass and a constant push are found again, and Eq. 3's constant from them") {
   const CarriedWall wall;
   const auto steps = wall.record(1.0);
-  WallSettings sharp;
-  sharp.smoothing = 0.0;
-  const WallCycles cycles = wall_cycles(steps, wall.frequency, wall.h, sharp);
+  const WallCycles cycles = wall_cycles(steps, wall.frequency, wall.h, 0.0);
   REQUIRE(cycles.periods.size() == 3);
-  const ForceLaw law = force_law(steps, cycles, wall.grain_mass, wall.wall_mass, 9.81, sharp);
+  const ForceLaw law = force_law(steps, cycles, wall.grain_mass, wall.wall_mass, 9.81);
   const double w = wall.carried / (wall.carried + wall.wall_mass);
   CHECK(law.by_load.slope == Approx(w).epsilon(1e-6));
   CHECK(law.by_load.offset == Approx(wall.push * (1.0 - w)).epsilon(1e-6));
@@ -101,15 +99,13 @@ TEST_CASE("a carried mass and a constant push are found again, and Eq. 3's const
 TEST_CASE("an exponential in the place is told from a law of the load") {
   CarriedWall wall;
   auto steps = wall.record(1.0);
-  WallSettings sharp;
-  sharp.smoothing = 0.0;
-  const WallCycles moved = wall_cycles(steps, wall.frequency, wall.h, sharp);
+  const WallCycles moved = wall_cycles(steps, wall.frequency, wall.h, 0.0);
   // the same motion with forces that follow the place alone
   const double rate = 3.0 / moved.periods.front().rise;
   for (StepRecord& s : steps)
     if (s.wall_v > 0.0) s.wall_force = 100.0 * std::exp(rate * s.wall_x);
-  const WallCycles cycles = wall_cycles(steps, wall.frequency, wall.h, sharp);
-  const ForceLaw law = force_law(steps, cycles, wall.grain_mass, wall.wall_mass, 9.81, sharp);
+  const WallCycles cycles = wall_cycles(steps, wall.frequency, wall.h, 0.0);
+  const ForceLaw law = force_law(steps, cycles, wall.grain_mass, wall.wall_mass, 9.81);
   CHECK(law.active.amplitude == Approx(100.0).epsilon(1e-3));
   CHECK(law.active.rate == Approx(rate).epsilon(1e-3));
   CHECK(law.active.r2 > 0.999);
