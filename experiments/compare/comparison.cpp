@@ -159,42 +159,23 @@ void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
 
 constexpr double exact_tolerance = 1e-9;
 
-bool is_exact(const LoadedCase& loaded, const Impulses& impulses) {
-  return impulses.size() == loaded.problem.row_count() && impulses.allFinite() &&
-         contact_error(loaded.problem, impulses)
+bool is_exact(const LoadedCase& loaded) {
+  return loaded.exact.size() == loaded.problem.row_count() && loaded.exact.allFinite() &&
+         contact_error(loaded.problem, loaded.exact)
              .within(exact_tolerance * loaded.facts.velocity_scale);
 }
 
-std::string packed(const Impulses& impulses) {
-  Packer packer;
-  packer.list(impulses);
-  return packer.bytes();
+/// Impulses on their way from a child or a file: their bytes alone, as they are judged anew.
+std::string bytes_of(const Impulses& impulses) {
+  return {reinterpret_cast<const char*>(impulses.data()),
+          sizeof(double) * static_cast<size_t>(impulses.size())};
 }
 
-/// Empty where the bytes are damaged.
-Impulses unpacked(const std::string& bytes) {
-  Impulses impulses;
-  try {
-    Unpacker unpacker(bytes, "an exact answer");
-    unpacker.list(impulses);
-    unpacker.finish();
-  } catch (const Error&) {
-    return {};
-  }
+Impulses impulses_of(const std::string& bytes) {
+  Impulses impulses(static_cast<Eigen::Index>(bytes.size() / sizeof(double)));
+  std::copy_n(bytes.data(), sizeof(double) * static_cast<size_t>(impulses.size()),
+              reinterpret_cast<char*>(impulses.data()));
   return impulses;
-}
-
-/// What `solver` comes to within `seconds`; empty where it cannot.
-Impulses attempt(const char* solver, const LoadedCase& loaded, double seconds) {
-  const Budget budget{.tolerance = exact_tolerance * loaded.facts.velocity_scale,
-                      .max_iterations = 1 << 30,
-                      .max_seconds = seconds};
-  const ChildResult child = run_in_child(1.25 * seconds + 2.0, [&] {
-    return packed(SolverRunner()
-                      .run(*make_solver(solver), loaded.problem, loaded.warm_start, budget)
-                      .solved.impulses);
-  });
-  return child.end == ChildEnd::complete ? unpacked(child.answer) : Impulses();
 }
 
 namespace fs = std::filesystem;
@@ -293,8 +274,7 @@ class Comparison {
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
     const bool was_there = take_stored(file, row);
     if (!was_there) {
-      const auto solve = solver.external_key.empty() ? solve_in_child : solve_outside;
-      solve(solver.make, loaded, options_.limits, row);
+      solve_case(solver, loaded, options_.limits, row);
       // an interrupt reaches the child as well: what it left is no result
       if (!InterruptGuard::requested()) write_whole_file(file, to_json(row));
     }
@@ -358,25 +338,41 @@ std::vector<std::string> words_of(const std::string& list, const std::string& wh
 void find_exact(LoadedCase& loaded, double max_seconds, const std::filesystem::path& folder) {
   if (!(max_seconds > 0.0)) return;
   const std::filesystem::path file = folder / (loaded.facts.content + ".exact");
-  if (is_there(file)) loaded.exact = unpacked(read_whole_file(file));
-  if (is_exact(loaded, loaded.exact)) return;
+  if (is_there(file)) loaded.exact = impulses_of(read_whole_file(file));
+  if (is_exact(loaded)) return;
+  const Budget budget{.tolerance = exact_tolerance * loaded.facts.velocity_scale,
+                      .max_iterations = 1 << 30,
+                      .max_seconds = 0.5 * max_seconds};
   for (const char* solver : {"newton_burst", "auto"}) {
-    loaded.exact = attempt(solver, loaded, 0.5 * max_seconds);
-    if (!is_exact(loaded, loaded.exact)) continue;
+    const ChildResult child = run_in_child(1.25 * budget.max_seconds + 2.0, [&] {
+      return bytes_of(SolverRunner()
+                          .run(*make_solver(solver), loaded.problem, loaded.warm_start, budget)
+                          .solved.impulses);
+    });
+    if (child.end == ChildEnd::complete) loaded.exact = impulses_of(child.answer);
+    if (!is_exact(loaded)) continue;
     create_folder(folder);
-    return write_whole_file(file, packed(loaded.exact));
+    return write_whole_file(file, child.answer);
   }
   loaded.exact.resize(0);
 }
 
-void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
-                    CompareRow& row) {
+void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const SolveLimits& limits,
+                CompareRow& row) {
+  if (!solver.external_key.empty()) {
+    const Stopwatch watch;
+    Account account = solve_here(solver.make, loaded, limits, row);
+    row = std::move(account.row);
+    row.peak_memory_MB = std::nan("");
+    if (row.verdict == Verdict::timeout) row.solve_seconds = watch.seconds();
+    return judge(loaded, account, row);
+  }
   // Backends look at the clock between iterations, prepare() never does: some grace before the
   // child is killed.
   const double most_seconds = 1.25 * row.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
   const ChildResult child = run_in_child(most_seconds, [&] {
     limit_memory(limits.memory_MB);
-    Account account = solve_here(make, loaded, limits, row);
+    Account account = solve_here(solver.make, loaded, limits, row);
     account.row.peak_memory_MB = peak_memory();
     Packer packer;
     packer.text(to_json(account.row));
@@ -404,16 +400,6 @@ void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const Solv
   account.row.word = row.word;
   account.row.can_view = row.can_view;
   row = std::move(account.row);
-  judge(loaded, account, row);
-}
-
-void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
-                   CompareRow& row) {
-  const Stopwatch watch;
-  Account account = solve_here(make, loaded, limits, row);
-  row = std::move(account.row);
-  row.peak_memory_MB = std::nan("");
-  if (row.verdict == Verdict::timeout) row.solve_seconds = watch.seconds();
   judge(loaded, account, row);
 }
 

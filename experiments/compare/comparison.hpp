@@ -30,17 +30,22 @@ struct SolveLimits {
   int most_runs = 20;  ///< in one child
 };
 
-/// Solves the case with a solver made by `make` in a forked child, judges what comes back here, and
-/// fills in what came of it in `row`; what was tried (its measure, tolerance, start and
-/// max_seconds) must be in it. A backend stops on the measure that is asked for: it looks at it
-/// wherever it evaluates its error (Budget::fclib). Throws InvalidProblem.
-void solve_in_child(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
-                    CompareRow& row);
+/// A backend of a comparison: of solver_list(), a test's own, or a program.
+struct ComparedSolver {
+  std::string name;
+  ContactLaw law = ContactLaw::coulomb;
+  MakeSolver make;
+  /// Key of a program that is no part of this one; not empty: no child is forked for it, as the
+  /// program is under limits of its own (experiments/external).
+  std::string external_key = {};
+};
 
-/// The same without a child, for a solver that has its work done in a program under limits of its
-/// own (experiments/external).
-void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
-                   CompareRow& row);
+/// Solves the case in a forked child, judges what comes back here, and fills in what came of it in
+/// `row`; what was tried (its measure, tolerance, start and max_seconds) must be in it. A backend
+/// stops on the measure that is asked for: it looks at it wherever it evaluates its error
+/// (Budget::fclib). Throws InvalidProblem.
+void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const SolveLimits& limits,
+                CompareRow& row);
 
 /// Looks for a solution of the case to measure distances from: LoadedCase::exact, at 1e-9 of the
 /// natural map over the velocity scale. By newton_burst where the bodies are known, then by `auto`,
@@ -48,15 +53,6 @@ void solve_outside(const MakeSolver& make, const LoadedCase& loaded, const Solve
 /// is found is kept in `folder` and judged anew where it is there already. Throws Error where the
 /// folder cannot be written.
 void find_exact(LoadedCase& loaded, double max_seconds, const std::filesystem::path& folder);
-
-/// A backend of a comparison: of solver_list(), a test's own, or a program.
-struct ComparedSolver {
-  std::string name;
-  ContactLaw law = ContactLaw::coulomb;
-  MakeSolver make;
-  /// Key of a program that is no part of this one; not empty: no child is forked for it.
-  std::string external_key = {};
-};
 
 struct CompareOptions {
   std::vector<ComparedSolver> solvers;

@@ -65,6 +65,11 @@ std::unique_ptr<Solver> misbehaving() {
   return std::make_unique<Misbehaving<Act>>();
 }
 
+/// Whose solver is made here; `key`: as if it were a program, without a child.
+ComparedSolver made_by(MakeSolver make, std::string key = {}) {
+  return {"", ContactLaw::coulomb, std::move(make), std::move(key)};
+}
+
 /// One run. Sanitizers reserve terabytes.
 const SolveLimits once{.memory_MB = 0.0, .warm_seconds = 0.0};
 
@@ -74,7 +79,7 @@ CompareRow tried(SolverMaker make, double tolerance, double max_seconds = 20.0) 
   CompareRow row;
   row.tolerance = tolerance;
   row.max_seconds = max_seconds;
-  solve_in_child(make, loaded, once, row);
+  solve_case(made_by(make), loaded, once, row);
   return row;
 }
 
@@ -109,7 +114,7 @@ TEST_CASE("A case without a solution is said to have none, in either measure") {
       row.measure = measure;
       row.tolerance = 1e-6;
       row.max_seconds = 20.0;
-      solve_in_child(find_solver(name).make, loaded, limits, row);
+      solve_case(made_by(find_solver(name).make), loaded, limits, row);
       CAPTURE(name, row.reason, row.error);
       CHECK(row.verdict == Verdict::no_solution);
       CHECK(row.note.find("no solution") != std::string::npos);
@@ -134,7 +139,7 @@ TEST_CASE("A short solve is repeated in its child, and the fastest run counts") 
   const SolveLimits limits{.memory_MB = 0.0, .warm_seconds = 60.0, .most_runs = 4};
   CompareRow row;
   row.tolerance = 1e-4;
-  solve_in_child(find_solver("pgs").make, loaded, limits, row);
+  solve_case(made_by(find_solver("pgs").make), loaded, limits, row);
   CHECK(row.runs == 4);
 }
 
@@ -190,8 +195,8 @@ TEST_CASE("The natural map needs one round, in units of the velocity scale") {
   limits.max_iterations = 100000;
   CompareRow row;
   row.tolerance = 1e-3;
-  solve_outside([&] { return std::make_unique<Noting>("pgs", budgets); }, heavy_case(1.0), limits,
-                row);
+  solve_case(made_by([&] { return std::make_unique<Noting>("pgs", budgets); }, "key"),
+             heavy_case(1.0), limits, row);
   REQUIRE(budgets.size() == 1);
   CHECK(budgets[0].tolerance == 1e-3 * 5.0);
   CHECK(budgets[0].max_iterations == 100000);
@@ -215,8 +220,8 @@ TEST_CASE("Every backend stops on the measure of Siconos, and not far below it")
       row.measure = Measure::fclib;
       row.tolerance = 1e-4;
       row.max_seconds = 20.0;
-      solve_outside([&] { return std::make_unique<Noting>(entry.name, budgets); }, loaded, once,
-                    row);
+      solve_case(made_by([&] { return std::make_unique<Noting>(entry.name, budgets); }, "key"),
+                 loaded, once, row);
       if (row.verdict == Verdict::unsupported) continue;  // NLopt's dense Jacobian: fewer contacts
       CHECK(budgets.size() == 1);
       if (row.reason == "reached_tolerance") CHECK(row.fclib <= 1e-4);
@@ -234,14 +239,14 @@ TEST_CASE("A backend that gives up says why, and one that only says so is not be
   row.tolerance = 1e-9;
   SolveLimits limits = once;
   limits.max_iterations = 2;
-  solve_outside(find_solver("pgs").make, heavy_case(1.0), limits, row);
+  solve_case(made_by(find_solver("pgs").make, "key"), heavy_case(1.0), limits, row);
   CHECK(row.iterations == 2);
   CHECK(row.reason == "iteration_limit");
   CHECK(row.verdict == Verdict::unsolved);
   CompareRow lie;
   lie.measure = Measure::fclib;
   lie.tolerance = 1e-6;
-  solve_outside(misbehaving<Lie>, heavy_case(1.0), once, lie);
+  solve_case(made_by(misbehaving<Lie>, "key"), heavy_case(1.0), once, lie);
   CHECK(lie.verdict == Verdict::denied);
 }
 
