@@ -32,17 +32,6 @@ const CollectedRun scenes[] = {{"shaken", {"drive.frequency=20", "drive.f_max_ov
                                {"pressed", {"drive.f_min_over_weight=3", "contact.friction=1"}},
                                {"released", {"drive.f_max_over_weight=0", "contact.friction=0.2"}}};
 
-/// The line of the manifest for a problem that is called `name` there.
-std::vector<std::string> described(const fs::path& file, const std::string& name) {
-  const CapturedProblem captured = read_captured(file);
-  return {name,
-          content_of(captured.problem, captured.start, captured.velocity_scale()),
-          std::to_string(captured.problem.contact_count()),
-          std::to_string(captured.problem.row_count()),
-          std::to_string(captured.step),
-          captured.step == settling_step ? "settling" : captured.phase};
-}
-
 }  // namespace
 
 std::vector<CollectedRun> collection_runs(int most_grains) {
@@ -83,7 +72,13 @@ ExitCode make_collection(const fs::path& folder, std::span<const CollectedRun> r
     for (const FoundProblem& found : find_problems((options.output / "capture").string())) {
       const std::string name = wanted.name + '/' + found.name.string();
       write_whole_file(folder / "problems" / name, read_whole_file(found.file));
-      manifest.add_row(described(found.file, name));
+      const CapturedProblem captured = read_captured(found.file);
+      const FrictionProblem& problem = captured.problem;
+      manifest.add_row(std::vector<std::string>{
+          name, content_of(problem, captured.start, captured.velocity_scale()),
+          std::to_string(problem.contact_count()), std::to_string(problem.row_count()),
+          std::to_string(captured.step),
+          captured.step == settling_step ? "settling" : captured.phase});
     }
   }
   write_whole_file(folder / "problems" / "manifest.csv", manifest.take());

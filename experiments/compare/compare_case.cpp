@@ -93,13 +93,6 @@ LoadedCase load_captured(const fs::path& file) {
   return loaded;
 }
 
-/// The run's folder, which is above its capture/.
-std::string run_of_captured(const fs::path& file) {
-  fs::path folder = fs::absolute(file).lexically_normal().parent_path();
-  if (folder.filename() == "capture") folder = folder.parent_path();
-  return folder.filename().string();
-}
-
 CompareCase file_case(const fs::path& file) {
   CompareCase made{.name = file.filename().string(),
                    .family = family_of_file(file.filename().string()),
@@ -111,7 +104,10 @@ CompareCase file_case(const fs::path& file) {
                    .word = file.string()};
   try {
     if (!is_captured(file)) return made;
-    const std::string run = run_of_captured(file), phase = read_captured(file).phase;
+    // the run's folder is above its capture/
+    fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+    if (folder.filename() == "capture") folder = folder.parent_path();
+    const std::string run = folder.filename().string(), phase = read_captured(file).phase;
     made.name = run + "/" + file.stem().string();
     made.family = run + (phase == "none" ? "" : ", " + phase);
     made.load = [file] { return load_captured(file); };

@@ -30,13 +30,6 @@ struct Account {
   Solved solved;  ///< reason and impulses; row.reason is the name of the first, or empty
 };
 
-void limit_memory(double memory_MB) {
-  if (!(memory_MB > 0.0)) return;
-  const rlimit limit{static_cast<rlim_t>(memory_MB * 1048576.0),
-                     static_cast<rlim_t>(memory_MB * 1048576.0)};
-  setrlimit(RLIMIT_AS, &limit);
-}
-
 /// Of this process or of the largest one that it waited for [MB].
 double peak_memory() {
   double peak = 0.0;
@@ -63,19 +56,6 @@ SolverRun drive(Solver& solver, const LoadedCase& loaded, const SolveLimits& lim
   return SolverRunner().run(solver, loaded.problem, from, budget);
 }
 
-void take_run(SolverRun&& run, double velocity_scale, Account& account) {
-  CompareRow& row = account.row;
-  row.reason = run.failure.empty() ? name_of(run.solved.reason) : "";
-  row.note = run.failure;
-  if (run.failure == std::bad_alloc().what()) row.verdict = Verdict::out_of_memory;
-  row.iterations = run.solved.iterations;
-  row.prepare_seconds = run.prepare_seconds;
-  row.solve_seconds = run.solve_seconds;
-  row.history = std::move(run.solved.history);
-  for (HistoryPoint& point : row.history) point.error /= velocity_scale;
-  account.solved = std::move(run.solved);
-}
-
 /// A new solver for each run: nothing is carried over but caches.
 void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
                       Account& account) {
@@ -89,10 +69,19 @@ void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const So
     const double seconds = run.prepare_seconds + run.solve_seconds;
     // What is loaded and started once is seen in the first run alone.
     if (row.runs == 0) row.startup_seconds = making + run.startup_seconds;
-    if (row.runs == 0 || seconds < row.seconds())
-      take_run(std::move(run), loaded.facts.velocity_scale, account);
+    const bool is_fastest = row.runs == 0 || seconds < row.seconds();
     ++row.runs;
     spent += watch.seconds();
+    if (!is_fastest) continue;
+    row.reason = run.failure.empty() ? name_of(run.solved.reason) : "";
+    row.note = run.failure;
+    if (run.failure == std::bad_alloc().what()) row.verdict = Verdict::out_of_memory;
+    row.iterations = run.solved.iterations;
+    row.prepare_seconds = run.prepare_seconds;
+    row.solve_seconds = run.solve_seconds;
+    row.history = std::move(run.solved.history);
+    for (HistoryPoint& point : row.history) point.error /= loaded.facts.velocity_scale;
+    account.solved = std::move(run.solved);
   } while (account.solved.reason == StopReason::reached_tolerance && row.runs < limits.most_runs &&
            spent + row.seconds() < limits.warm_seconds);
 }
@@ -371,7 +360,9 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
   // child is killed.
   const double most_seconds = 1.25 * row.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
   const ChildResult child = run_in_child(most_seconds, [&] {
-    limit_memory(limits.memory_MB);
+    const auto bytes = static_cast<rlim_t>(limits.memory_MB * 1048576.0);
+    const rlimit limit{bytes, bytes};
+    if (bytes > 0) setrlimit(RLIMIT_AS, &limit);
     Account account = solve_here(solver.make, loaded, limits, row);
     account.row.peak_memory_MB = peak_memory();
     Packer packer;

@@ -28,7 +28,7 @@ struct Trajectory {
   std::vector<double> frame_times;         ///< [s]
   std::vector<Eigen::VectorXd> positions;  ///< centres of all grains, 3 each [m]; one per frame
   bool is_complete() const { return ended == complete; }
-  std::string label() const;  ///< "pgs 1e-4", "nncg 50 iterations", "sap 1e-4 (convex)"
+  std::string label() const;  ///< "pgs 0.0001", "nncg 50 iterations"
 };
 
 /// rms over grains of the distance from the reference at each frame that both have [m].

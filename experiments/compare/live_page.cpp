@@ -26,10 +26,6 @@ double last_of(const Trajectory& t, double StepRecord::*value) {
   return t.steps.empty() ? not_known : t.steps.back().*value;
 }
 
-double sum_of(const Trajectory& t, double StepRecord::*value) {
-  return over_steps(t, value).mean * static_cast<double>(t.steps.size());
-}
-
 /// The last one that is known: not every step has it.
 double last_solid_fraction(const Trajectory& t) {
   double last = not_known;
@@ -76,7 +72,10 @@ constexpr LiveNumber shown_numbers[] = {
     {"kinetic_energy_end", "J", "kinetic energy", "J", 1.0, 3,
      [](T t, C) { return last_of(t, &StepRecord::kinetic_energy); }},
     {"energy_residual", "J", nullptr, "", 1.0, 3,
-     [](T t, C) { return sum_of(t, &StepRecord::energy_residual); }},
+     [](T t, C) {
+       return over_steps(t, &StepRecord::energy_residual).mean *
+              static_cast<double>(t.steps.size());
+     }},
     {"solid_fraction_end", "", "solid fraction", "", 1.0, 4,
      [](T t, C) { return last_solid_fraction(t); }},
     {"iterations_mean", "", "iterations", "", 1.0, 3,
@@ -210,7 +209,7 @@ std::string origins_of(const LiveComparison& comparison) {
   return data.dump();
 }
 
-/// "steps-pgs_1e-4.csv"
+/// "steps-pgs_0_0001.csv"
 std::string steps_file(const Trajectory& t) {
   std::string name = "steps-";
   for (const char c : t.label())

@@ -33,7 +33,7 @@ std::string steps_csv(const Trajectory& trajectory);
 std::vector<page::Picture> live_figures(const LiveComparison& comparison);
 
 /// Reads manifest.json of `folder`; writes live.csv, trajectories as
-/// steps-<solver>-<tolerance>.csv, figures/*.svg and live.html there. Throws Error.
+/// steps-<label>.csv, figures/*.svg and live.html there. Throws Error.
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison);
 
 /// The k-th backend's line, here and in the bench's figures: eight colours, then the same dashed,

@@ -17,22 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of problems by what they hold, each another.
-class ProblemNames {
- public:
-  const std::string& of(const CompareRow& row) {
-    const auto [found, is_new] = names_.try_emplace(row.facts.content, row.case_name);
-    if (!is_new) return found->second;
-    for (int count = 2; !taken_.insert(found->second).second; ++count)
-      found->second = row.case_name + " (" + std::to_string(count) + ")";
-    return found->second;
-  }
-
- private:
-  std::map<std::string, std::string> names_;
-  std::set<std::string> taken_;
-};
-
 /// What makes two rows the same solve.
 using SolveIdentity = std::tuple<std::string, std::string, double, StartKind, Measure>;
 SolveIdentity identity_of(const CompareRow& row) {
@@ -40,10 +24,6 @@ SolveIdentity identity_of(const CompareRow& row) {
 }
 
 std::string machine_name(size_t place) { return "M" + std::to_string(place + 1); }
-
-double spread_of(const RepeatedSolve& solve) {
-  return solve.fastest > 0.0 ? solve.slowest / solve.fastest : 1.0;
-}
 
 Change change_of(const ChangedSolve& solve, double least) {
   if (solve.before == 0.0 && solve.after == 0.0) return Change::same;
@@ -81,7 +61,8 @@ MergedComparison merged(std::vector<StoredComparison> comparisons) {
   for (const StoredComparison& c : comparisons)
     if (std::ranges::find(all.machines, c.machine) == all.machines.end())
       all.machines.push_back(c.machine);
-  ProblemNames names;
+  std::map<std::string, std::string> names;  // of problems by what they hold, each another
+  std::set<std::string> taken;
   for (size_t m = 0; m < all.machines.size(); ++m) {
     const std::string mark = all.machines.size() > 1 ? machine_name(m) : "";
     std::map<SolveIdentity, const StoredComparison*> newest;
@@ -96,8 +77,11 @@ MergedComparison merged(std::vector<StoredComparison> comparisons) {
           throw Error(std::string("some comparisons are of the measure ") +
                       name_of(all.rows.front().measure) + ", others of " + name_of(row.measure) +
                       ": their tolerances bound different things");
+        const auto [name, is_new] = names.try_emplace(row.facts.content, row.case_name);
+        for (int count = 2; is_new && !taken.insert(name->second).second; ++count)
+          name->second = row.case_name + " (" + std::to_string(count) + ")";
         row.word = row.case_name;
-        row.case_name = (mark.empty() ? "" : mark + " · ") + names.of(row);
+        row.case_name = (mark.empty() ? "" : mark + " · ") + name->second;
         row.key = mark + row.key;
         all.rows.push_back(std::move(row));
       }
@@ -145,7 +129,8 @@ std::vector<ChangedSolve> compare_diff(std::span<const CompareRow> before,
       // the median tells solved from unsolved: no time is 0
       (side == 0 ? solve.before : solve.after) =
           repeats.solved ? std::max(repeats.median, 1e-9) : 0.0;
-      solve.spread = std::max(solve.spread, spread_of(repeats));
+      if (repeats.fastest > 0.0)
+        solve.spread = std::max(solve.spread, repeats.slowest / repeats.fastest);
     }
     solve.change = sides[0].empty()   ? Change::only_after
                    : sides[1].empty() ? Change::only_before

@@ -124,25 +124,19 @@ page::Table stage_table(const std::vector<Case>& cases, const std::string& unit)
   return table;
 }
 
-/// Over all values of a case, over its frequencies from 5 to 60 Hz, or between two of them: what
-/// cases that were driven at fewer are compared by.
-struct Range {
-  double low, high;
-  bool is_pair;
-};
-constexpr Range all_values[] = {{0.0, 1e9, false}},
-                by_frequency[] = {{5.0, 60.0, false}, {10.0, 60.0, true}, {20.0, 60.0, true}};
-
-/// The groups within a range; of frequencies none where an end is not there.
-Groups within(const Groups& groups, const Range& range) {
-  if (range.low == 0.0) return groups;
-  Groups kept;
-  if (!at(groups, range.low) || !at(groups, range.high)) return kept;
-  for (const Group& group : groups)
-    if (group.value >= range.low && group.value <= range.high &&
-        (!range.is_pair || group.value == range.low || group.value == range.high))
-      kept.push_back(group);
-  return kept;
+/// What exponents are taken over: all values of a case, three or more; of frequencies those from 5
+/// to 60 Hz, and two of them alone, by which cases that were driven at fewer are compared.
+std::vector<Groups> ranges_of(const Groups& groups, bool is_frequency) {
+  std::vector<Groups> ranges;
+  Groups wide = groups;
+  if (is_frequency)
+    std::erase_if(wide, [](const Group& g) { return g.value < 5.0 || g.value > 60.0; });
+  const Group *first = at(groups, 5.0), *last = at(groups, 60.0);
+  if (wide.size() > 2 && (!is_frequency || (first && last))) ranges.push_back(std::move(wide));
+  if (!is_frequency || !last) return ranges;
+  for (const double low : {10.0, 20.0})
+    if (const Group* slow = at(groups, low)) ranges.push_back({*slow, *last});
+  return ranges;
 }
 
 /// Exponents of Delta x_max and v_max, sample by sample; each case's first ones are findings.
@@ -151,14 +145,11 @@ void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperS
   const bool is_frequency = what.exponent_along == "frequency";
   for (const Case& row : cases) {
     bool is_first = true;
-    for (const Range& range :
-         is_frequency ? std::span<const Range>(by_frequency) : std::span<const Range>(all_values)) {
-      const Groups groups = within(row.groups, range);
-      if (groups.size() < (range.is_pair ? 2 : 3)) continue;
+    for (const Groups& groups : ranges_of(row.groups, is_frequency)) {
       const size_t fewest = is_frequency ? groups.size() : 3;
       const SampleMean rise = exponent_by_sample(groups, what.exponent_along, "rise", fewest),
                        speed = exponent_by_sample(groups, what.exponent_along, "speed_in", fewest);
-      const page::Text over = groups.front().label + (range.is_pair ? " and " : " to ") +
+      const page::Text over = groups.front().label + (groups.size() == 2 ? " and " : " to ") +
                               groups.back().label + unit_behind(what.along);
       table.rows.push_back({row.name, over, std::to_string(rise.samples), words_with_interval(rise),
                             words_with_interval(speed)});

@@ -8,6 +8,26 @@
 namespace ballast {
 namespace {
 
+/// Points of one colour and mark, and a row of a table.
+struct Series {
+  Selection selection;  ///< its name in words
+  Ink ink;
+  MarkShape shape = MarkShape::circle;
+  RunMeasure along = "";        ///< what is varied
+  const char* title = nullptr;  ///< in the legend, in the notation of page::marked()
+};
+/// What Eq. 3 has: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11. Rows of
+/// 23 November 2026 and before have g and m_w in one stage.
+const std::vector<Series> all_series{
+    {{"ν", "frequency; slowest"}, Ink::blue, MarkShape::triangle, "frequency", "ν"},
+    {{"f_max", "force"}, Ink::vermilion, MarkShape::circle, "force_over_weight", "f~max~"},
+    {{"g", "gravity; gravity-mass gravity!9.81"}, Ink::green, MarkShape::square, "gravity", "g"},
+    {{"m_w", "mass; gravity-mass gravity=9.81"},
+     Ink::purple,
+     MarkShape::diamond,
+     "grain_share",
+     "m~w~"}};
+
 /// Settings so near to one another are the same: the base run of all series is known again.
 bool are_same(const RunRow& a, const RunRow& b) {
   return std::ranges::all_of(
@@ -84,21 +104,11 @@ double half_width(const OneCurve& all, const Eigen::VectorXd& row) {
   return student_t95(all.between.degrees_of_freedom) * all.curve.fit.error_at(row);
 }
 
-std::pair<double, double> reach_of(const OneCurve& all) {
-  double low = 1e300, high = 0.0;
-  for (const CurvePoint& point : all.points) {
-    low = std::min(low, point.x);
-    high = std::max(high, point.x);
-  }
-  return {low, high};
-}
-
 /// A function of X [m], drawn over X in mm.
 template <class Function>
 Curve along(const OneCurve& all, const Function& function, const page::Text& title, Ink ink,
             bool dashed = false) {
-  const auto [least, most] = reach_of(all);
-  Curve curve = curve_of(function, {least, most, true}, title, ink, dashed);
+  Curve curve = curve_of(function, {all.least, all.most, true}, title, ink, dashed);
   for (double& x : curve.x) x *= to_mm;
   return curve;
 }
@@ -128,13 +138,13 @@ Panel prefactor_panel(const OneCurve& all) {
       all, [&](double x) { return all.curve.at(x) / x; }, "quadratic in ln X", Ink::black));
   panel.curves.push_back(along(
       all, [&](double x) { return all.line.at(x) / x; }, "straight line", Ink::grey, true));
-  for (size_t series = 0; series < all_series().size(); ++series) {
+  for (size_t series = 0; series < all_series.size(); ++series) {
     Points points;
     for (const CurvePoint& point : all.points)
       if (point.series == series) points.add(to_mm * point.x, point.group.mean("prefactor"));
     if (!points.x.empty())
-      panel.curves.push_back(curve_of(points, page::marked(all_series()[series].title),
-                                      all_series()[series].ink, all_series()[series].shape));
+      panel.curves.push_back(curve_of(points, page::marked(all_series[series].title),
+                                      all_series[series].ink, all_series[series].shape));
   }
   panel.lines = {{paper::prefactor, "the paper’s 0.01", false, Ink::grey}};
   return panel;
@@ -143,11 +153,10 @@ Panel prefactor_panel(const OneCurve& all) {
 /// C, the local exponent and the force that they mean, along X.
 page::Table along_table(const OneCurve& all) {
   page::Table table = page::words_table("curve.along");
-  const auto [least, most] = reach_of(all);
-  std::vector<double> places{least};
+  std::vector<double> places{all.least};
   for (const double mm : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0})
-    if (1e-3 * mm > 1.2 * least && 1e-3 * mm < most / 1.2) places.push_back(1e-3 * mm);
-  places.push_back(most);
+    if (1e-3 * mm > 1.2 * all.least && 1e-3 * mm < all.most / 1.2) places.push_back(1e-3 * mm);
+  places.push_back(all.most);
   for (const double x : places) {
     const double c = all.curve.at(x) / x, half = half_width(all, all.curve.row(x)),
                  slope = all.curve.fit.at(all.curve.slope_row(x)),
@@ -164,8 +173,8 @@ page::Table along_table(const OneCurve& all) {
 page::Text percent_words(double deviation) { return page::number(100.0 * deviation, 2) + " %"; }
 
 page::Values words_for(const OneCurve& all) {
-  const auto [least, most] = reach_of(all);
-  const double c_small = all.curve.at(least) / least, c_large = all.curve.at(most) / most;
+  const double c_small = all.curve.at(all.least) / all.least,
+               c_large = all.curve.at(all.most) / all.most;
   return {{"points", std::to_string(all.points.size())},
           {"curve", words_of(all.curve_misfit)},
           {"line", words_of(all.line_misfit)},
@@ -177,12 +186,12 @@ page::Values words_for(const OneCurve& all) {
           {"third", words_of(all.third, "F")},
           {"offsets", words_of(all.offsets, "F")},
           {"offset", percent_words(all.largest_offset)},
-          {"least", page::number(to_mm * least)},
-          {"most", page::number(to_mm * most)},
+          {"least", page::number(to_mm * all.least)},
+          {"most", page::number(to_mm * all.most)},
           {"c_small", page::number(c_small)},
           {"c_large", page::number(c_large)},
-          {"n_small", page::number(all.curve.fit.at(all.curve.slope_row(least)))},
-          {"n_large", page::number(all.curve.fit.at(all.curve.slope_row(most)))},
+          {"n_small", page::number(all.curve.fit.at(all.curve.slope_row(all.least)))},
+          {"n_large", page::number(all.curve.fit.at(all.curve.slope_row(all.most)))},
           {"f_small", page::number(force_of_prefactor(c_small), 2)},
           {"f_large", page::number(force_of_prefactor(c_large), 2)}};
 }
@@ -212,7 +221,6 @@ struct Law {
 /// Figs. 9 to 11, then C along the shape of the box, and against its theory.
 std::vector<Law> all_laws() {
   using enum MarkShape;
-  const auto series = all_series();
   const Axis rise{"rise", "Δ*x*~max~  (mm)", 1e3},
       prefactor{"prefactor", "*C* = Δ*x*~max~ / *X*", 1.0},
       frequency{"frequency", "*ν*  (Hz)", 1.0}, speed{"speed_in", "*v*~max~  (mm/s)", 1e3},
@@ -220,26 +228,25 @@ std::vector<Law> all_laws() {
       gravity{"gravity", "*g*  (m/s^2^)", 1.0}, mass{"grain_share", "*m* / (*m* + *m*~w~)", 1.0},
       eq3{"eq3", "right side of Eq. 3 without *C*  (mm)", 1e3}, aspect{"aspect", "*L*/*H*", 1.0},
       theory{"prefactor_theory", "*C* by the theory, from the force as measured", 1.0};
-  const std::vector<Series> all(series.begin(), series.end());
   const Selection slow{"5 Hz", "box frequency=5"}, fast{"20 Hz", "box frequency=20"},
       pressed{"ν",
               "frequency; slowest; tight; tightest; deposits lid_pressure>0 deposit_friction=0.4"};
   // a run of several families is a point of the first
   const std::vector<Series> everything{
       {pressed, Ink::blue},
-      {all[1].selection, Ink::vermilion, triangle},
-      {all[2].selection, Ink::green, square},
-      {all[3].selection, Ink::purple, diamond},
+      {all_series[1].selection, Ink::vermilion, triangle},
+      {all_series[2].selection, Ink::green, square},
+      {all_series[3].selection, Ink::purple, diamond},
       {{"L/H", "box"}, Ink::orange},
       {{"light wall", "loads"}, Ink::black, triangle},
       {{"deposit", "deposits"}, Ink::grey, square},
       {{"grains, size", "shapes; sizes; reading"}, Ink::sky, diamond}};
-  return {{"fig9", "fig9", {all[0]}, frequency, rise, -2.0, 10.0},
-          {"fig9", "fig9_speed", {all[0]}, frequency, speed, -1.0, 10.0},
-          {"fig10", "fig10", {all[1]}, force, rise, -1.0, 3.0},
-          {"fig10", "fig10_gravity", {all[2]}, gravity, rise, 2.0, 5.0},
-          {"fig10", "fig10_mass", {all[3]}, mass, rise, 1.0, 0.6},
-          {"fig11", "fig11", all, eq3, rise, 1.0, 10.0, paper::prefactor},
+  return {{"fig9", "fig9", {all_series[0]}, frequency, rise, -2.0, 10.0},
+          {"fig9", "fig9_speed", {all_series[0]}, frequency, speed, -1.0, 10.0},
+          {"fig10", "fig10", {all_series[1]}, force, rise, -1.0, 3.0},
+          {"fig10", "fig10_gravity", {all_series[2]}, gravity, rise, 2.0, 5.0},
+          {"fig10", "fig10_mass", {all_series[3]}, mass, rise, 1.0, 0.6},
+          {"fig11", "fig11", all_series, eq3, rise, 1.0, 10.0, paper::prefactor},
           {"box", "box_slow", {{slow, Ink::blue}}, aspect, prefactor, -1.0, 1.5},
           {"box", "box_fast", {{fast, Ink::vermilion}}, aspect, prefactor, -1.0, 1.5},
           {"theory", "theory", everything, theory, prefactor, 1.0, not_known, 1.0}};
@@ -323,17 +330,6 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
 
 }  // namespace
 
-std::span<const Series> all_series() {
-  using enum MarkShape;
-  // rows of 23 November 2026 and before have g and m_w in one stage
-  static const std::vector<Series> all{
-      {{"ν", "frequency; slowest"}, Ink::blue, triangle, "frequency", "ν"},
-      {{"f_max", "force"}, Ink::vermilion, circle, "force_over_weight", "f~max~"},
-      {{"g", "gravity; gravity-mass gravity!9.81"}, Ink::green, square, "gravity", "g"},
-      {{"m_w", "mass; gravity-mass gravity=9.81"}, Ink::purple, diamond, "grain_share", "m~w~"}};
-  return all;
-}
-
 Eigen::VectorXd LogPolynomial::row(double x) const {
   Eigen::VectorXd powers(fit.value.size() ? fit.value.size() : 3);
   for (Eigen::Index k = 0; k < powers.size(); ++k)
@@ -358,6 +354,9 @@ OneCurve one_curve(const std::vector<Groups>& groups) {
   all.between = scatter_between(distinct, "rise");
   all.paired = scatter_paired(distinct, "rise");
   if (!all.is_known()) return all;
+  const auto [least, most] = std::ranges::minmax(all.points, {}, &CurvePoint::x);
+  all.least = least.x;
+  all.most = most.x;
   // with one sample of each point no errors are known: then every point weighs the same
   const double deviation = all.between.degrees_of_freedom > 0 ? all.between.deviation : 1.0;
   all.line = polynomial(all.points, 2, deviation);
@@ -378,7 +377,7 @@ double force_of_prefactor(double prefactor) {
 
 void fill_curve(PaperData& data, PaperSection& section) {
   std::vector<Groups> groups;
-  for (const Series& series : all_series())
+  for (const Series& series : all_series)
     groups.push_back(data.groups(series.selection, series.along));
   const OneCurve all = one_curve(groups);
   if (!all.is_known()) return;
@@ -388,10 +387,7 @@ void fill_curve(PaperData& data, PaperSection& section) {
   section.add(along_table(all));
   const double half = student_t95(all.between.degrees_of_freedom) * all.offset_error;
   section.claim("curve.grouping", words, PaperRange::about(0.0, 0.1),
-                {.value = all.largest_offset,
-                 .low = all.largest_offset - half,
-                 .high = all.largest_offset + half,
-                 .law_p = all.curve_misfit.p});
+                Found::about(all.largest_offset, half, all.curve_misfit.p));
   section.report("curve.shape", words);
   section.report("curve.bend", words);
 }

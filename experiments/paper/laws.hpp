@@ -7,19 +7,8 @@
 
 namespace ballast {
 
-/// Points of one colour and mark, and a row of a table.
-struct Series {
-  Selection selection;  ///< its name in words
-  Ink ink;
-  MarkShape shape = MarkShape::circle;
-  RunMeasure along = "";        ///< what is varied
-  const char* title = nullptr;  ///< in the legend, in the notation of page::marked()
-};
-/// What Eq. 3 has: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11.
-std::span<const Series> all_series();
-
 struct CurvePoint {
-  size_t series = 0;  ///< index into all_series()
+  size_t series = 0;  ///< of the list of groups
   Group group;
   double x = not_known;  ///< X [m]
 
@@ -38,8 +27,9 @@ struct LogPolynomial {
 
 struct OneCurve {
   std::vector<CurvePoint> points;  ///< distinct runs: the base of all series counts once
-  PooledError between;             ///< ln Delta x_max of a sample about its point's mean
-  PooledError paired;              ///< the same when each packing's mean offset is taken out
+  double least = not_known, most = not_known;  ///< X of the points [m]
+  PooledError between;  ///< ln Delta x_max of a sample about its point's mean
+  PooledError paired;   ///< the same when each packing's mean offset is taken out
   LogPolynomial line, curve;
   VarianceRatio line_misfit, curve_misfit;  ///< with the errors `between`
   VarianceRatio paired_misfit;              ///< of the curve, with the errors `paired`
@@ -51,7 +41,7 @@ struct OneCurve {
   bool is_known() const { return points.size() > 4; }
 };
 
-/// `groups`: one list for each of all_series().
+/// `groups`: a list for each series, the values of one thing that Eq. 3 has.
 OneCurve one_curve(const std::vector<Groups>& groups);
 
 /// The force of the grains over m g that gives this C in the limit f_max >> f_g, when the wall and

@@ -190,17 +190,16 @@ Panel portrait_panel(const Portrait& orbits, const std::string& x_label,
   return panel;
 }
 
-/// A window in which the rate is measured: the paper's, and one that is the same for all
-/// frequencies.
-struct RateWindow {
-  const char *name, *title;  ///< of its words; in the legend
-  RunMeasure rate;
-  Ink ink;
-  MarkShape shape;
-};
-constexpr RateWindow windows[] = {
-    {"own", "paper’s window", "rate", Ink::blue, MarkShape::circle},
-    {"common", "0.4–1 s", "rate_common", Ink::vermilion, MarkShape::square}};
+/// A panel over the paper's frequencies, 1 to 60 Hz. The label is in the notation of
+/// page::marked().
+Panel frequency_panel(const std::string& label) {
+  return {.x_label = page::marked("*ν*  (Hz)"),
+          .y_label = page::marked(label),
+          .log_x = true,
+          .x_min = 0.85,
+          .x_max = 70.0,
+          .x_ticks = {1, 2, 5, 10, 20, 60}};
+}
 
 constexpr double paper_peak = 10.0;  // nu_c [Hz]
 
@@ -257,7 +256,7 @@ void fill_motion(PaperData& data, PaperSection& section) {
   const Points times = points_of(groups, "frequency", "first_time90");
   Panel panel = frequency_panel("90 % of the first contraction  (s)");
   panel.y_min = 0.0;
-  panel.curves = {curve_of(times, mean_title, Ink::blue)};
+  panel.curves = {curve_of(times, "mean over samples ± standard error", Ink::blue)};
   panel.lines = {{paper_window.begin, "the paper’s 0.2 s", false, Ink::vermilion}};
   section.draw("fig3_times", {.height = 400, .panels = {panel}});
   // the paper takes rho_0 at 0.2 s for every frequency: the slowest first contraction decides
@@ -386,11 +385,13 @@ void fill_rates(PaperData& data, PaperSection& section) {
   // D as the paper has it: the gain of a period at 5 Hz over rho_0
   const Group* slow = at(groups, 5.0);
   const SampleMean gain = slow ? slow->mean("relative_gain") : SampleMean{};
-  for (const RateWindow& window : windows) {
-    const Points curve = points_of(groups, "frequency", window.rate);
+  // the window of the rate: the paper's, and one that is the same for all frequencies
+  for (const auto& [name, title, rate, ink, shape] :
+       {std::tuple(std::string("own"), "paper’s window", "rate", Ink::blue, MarkShape::circle),
+        {"common", "0.4–1 s", "rate_common", Ink::vermilion, MarkShape::square}}) {
+    const Points curve = points_of(groups, "frequency", rate);
     if (curve.x.size() < 2) return;
-    panel.curves.push_back(curve_of(curve, window.title, window.ink, window.shape));
-    const std::string name = window.name;
+    panel.curves.push_back(curve_of(curve, title, ink, shape));
     const PeakedRate free = fit_peaked_rate(curve.x, curve.y);
     const VarianceRatio free_misfit = misfit_of(free, curve, 2);
     words[name] = words_of(free);
@@ -404,7 +405,7 @@ void fill_rates(PaperData& data, PaperSection& section) {
     words[name + "_fixed_misfit"] = words_of(fixed_misfit);
     section.claim("fig13." + name + "_fixed", words, PaperRange::roughly(paper_peak),
                   found_peak(fixed, curve, fixed_misfit.p));
-    if (window.rate != "rate") continue;
+    if (name != "own") continue;
     if (std::isfinite(free.critical))
       panel.curves.push_back(law_curve(free, curve, "Eq. 5, both free", Ink::black));
     panel.curves.push_back(

@@ -118,8 +118,6 @@ size_t place_of(std::string_view column) {
   return static_cast<size_t>(found - columns);
 }
 
-constexpr const char* usual_scene = "vibrated_box";
-
 /// A plan is a file, so that its scenes have a place.
 Plan built_in_plan() {
   const fs::path file =
@@ -163,7 +161,7 @@ std::vector<PlannedRun> read_campaign(const CampaignSettings& settings) {
   // Only those that are wanted: an override may fit no scene but theirs.
   if (!settings.only.empty()) plan.runs = select(plan, settings.only);
   for (PlannedRun& run : plan.runs) {
-    if (!settings.scene.empty() && run.scene == usual_scene) run.scene = settings.scene;
+    if (!settings.scene.empty() && run.scene == "vibrated_box") run.scene = settings.scene;
     run.overrides.insert(run.overrides.end(), settings.overrides.begin(), settings.overrides.end());
     run = planned_run(run.name, run.scene, run.overrides);
     if (run.packing.empty())
@@ -350,12 +348,11 @@ PooledError scatter_paired(const Groups& groups, RunMeasure measure) {
 PaperData::PaperData(std::vector<PlannedRun> campaign, std::filesystem::path results,
                      std::vector<RunRow> rows)
     : campaign_(std::move(campaign)), results_(std::move(results)) {
-  std::set<std::string> keys;
   for (const PlannedRun& run : campaign_)
-    if (keys.insert(run.key).second && RunFolder(folder(run.key)).is_finished(run.key))
+    if (keys_.insert(run.key).second && RunFolder(folder(run.key)).is_finished(run.key))
       finished_[run.key];
   for (RunRow& row : rows)
-    if (keys.contains(row.key))
+    if (keys_.contains(row.key))
       given_.emplace(row.key, std::move(row));
     else
       foreign_.push_back(std::move(row));
@@ -447,18 +444,10 @@ std::string PaperData::missing(const std::string& stage) const {
   return printed("PARTIAL: %d of %d runs of %s.", known, planned, stage.c_str());
 }
 
-size_t PaperData::planned() const {
-  std::set<std::string> keys;
-  for (const PlannedRun& run : campaign_) keys.insert(run.key);
-  return keys.size();
-}
-
 size_t PaperData::known_by_row() const {
   return static_cast<size_t>(std::ranges::count_if(
       given_, [&](const auto& given) { return !finished_.contains(given.first); }));
 }
-
-size_t PaperData::foreign() const { return foreign_.size(); }
 
 std::pair<int, int> PaperData::repeats() {
   rows();

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -150,10 +151,10 @@ class PaperData {
   /// "PARTIAL: 6 of 30 runs of frequency.": empty when everything planned is there.
   std::string missing(const std::string& stage) const;
 
-  size_t planned() const;  ///< different runs of the campaign
+  size_t planned() const { return keys_.size(); }  ///< different runs of the campaign
   size_t finished() const { return finished_.size(); }
-  size_t known_by_row() const;  ///< runs of which a row alone is known
-  size_t foreign() const;       ///< rows of no run of this campaign
+  size_t known_by_row() const;                        ///< runs of which a row alone is known
+  size_t foreign() const { return foreign_.size(); }  ///< rows of no run of this campaign
   /// Runs made here whose row was given too: how many, and of how many both have the same hash.
   std::pair<int, int> repeats();
   /// What could not be read of the records, one line each. After rows().
@@ -163,6 +164,7 @@ class PaperData {
   RunRow measured(const std::string& key);
 
   std::vector<PlannedRun> campaign_;
+  std::set<std::string> keys_;  ///< of its runs
   std::filesystem::path results_;
   std::map<std::string, RunRow> finished_;  ///< by key; measured by rows()
   std::map<std::string, RunRow> given_;     ///< by key

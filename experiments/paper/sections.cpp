@@ -99,18 +99,6 @@ PaperRange PaperRange::widened() const {
   return std::isfinite(width) ? PaperRange{low - width, high + width} : *this;
 }
 
-Found found(const SampleMean& mean) {
-  const double half = mean.half_width();
-  return {.value = mean.mean, .low = mean.mean - half, .high = mean.mean + half};
-}
-
-Found found(const PowerFit& fit, double law_p) {
-  return {.value = fit.exponent,
-          .low = fit.exponent - fit.half_width,
-          .high = fit.exponent + fit.half_width,
-          .law_p = law_p};
-}
-
 Agreement agreement_of(const PaperRange& paper, const Found& found) {
   if (!std::isfinite(found.low) || !std::isfinite(found.high)) return Agreement::reported;
   const PaperRange wide = paper.widened();
@@ -271,15 +259,6 @@ page::Text words_of_change(const SampleMean& change) {
   return mean + " " +
          page::interval(100.0 * std::expm1(change.mean - half),
                         100.0 * std::expm1(change.mean + half));
-}
-
-Panel frequency_panel(const std::string& label) {
-  return {.x_label = page::marked("*ν*  (Hz)"),
-          .y_label = page::marked(label),
-          .log_x = true,
-          .x_min = 0.85,
-          .x_max = 70.0,
-          .x_ticks = {1, 2, 5, 10, 20, 60}};
 }
 
 Curve curve_of(const Points& points, const page::Text& title, Ink ink, MarkShape shape) {

@@ -51,10 +51,16 @@ struct Found {
   double value = not_known, low = not_known, high = not_known;  ///< with its 95 % interval
   double law_p = 1.0;    ///< of the misfit of the law whose parameter it is
   bool is_whole = true;  ///< false: a part of the paper's statement, or samples chosen by it
+
+  static Found about(double value, double half_width, double law_p = 1.0) {
+    return {value, value - half_width, value + half_width, law_p};
+  }
 };
 /// Student's interval; of one sample there is none.
-Found found(const SampleMean& mean);
-Found found(const PowerFit& fit, double law_p);
+inline Found found(const SampleMean& mean) { return Found::about(mean.mean, mean.half_width()); }
+inline Found found(const PowerFit& fit, double law_p) {
+  return Found::about(fit.exponent, fit.half_width, law_p);
+}
 
 Agreement agreement_of(const PaperRange& paper, const Found& found);
 
@@ -102,12 +108,6 @@ page::Text words_with_interval(const SampleMean& mean);
 /// Of a difference of logarithms: "+3.1 % [0.2, 6.1]"; one sample has no interval.
 page::Text words_of_change(const SampleMean& change);
 
-/// A panel over the paper's frequencies, 1 to 60 Hz: the same axis in every figure. The label is in
-/// the notation of page::marked().
-Panel frequency_panel(const std::string& label);
-
-/// What the legend says of points that are means over seeds.
-inline constexpr const char* mean_title = "mean over samples ± standard error";
 /// Points with bars.
 Curve curve_of(const Points& points, const page::Text& title, Ink ink,
                MarkShape shape = MarkShape::circle);
