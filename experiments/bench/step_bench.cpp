@@ -20,6 +20,7 @@
 #include "platform/interrupt.hpp"
 #include "platform/pack.hpp"
 #include "platform/program.hpp"
+#include "platform/text.hpp"
 #include "platform/worker_team.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -172,9 +173,8 @@ double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int 
 /// solver to the tolerance.
 void measure_packing(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
   const auto add = [&](const std::string& name, const char* unit, std::vector<double> values) {
-    const std::string grains = std::to_string(static_cast<long>(point.grains)) + " grains";
-    point.measured.push_back(measurement_of(thread_words(point.threads) + ", " + grains, name, unit,
-                                            {quantile(values, 0.5)}));
+    const std::string group = thread_words(point.threads) + printed(", %.0f grains", point.grains);
+    point.measured.push_back(measurement_of(group, name, unit, {quantile(values, 0.5)}));
   };
   const double before = peak_bytes(), ns = 1e9 / point.grains;
   BenchStart start = tiled_start(box, point.nx, point.ny);
@@ -223,24 +223,6 @@ void carry(Carrier& carrier, List& measured) {
     for (auto* text : {&m.group, &m.name, &m.unit}) carrier.text(*text);
     carrier.numbers(m.median, m.mean, m.low, m.high, m.samples);
   });
-}
-
-/// Measures the packing that `point` names in a child, and fills in what it measured.
-void measure_in_child(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
-  // The peak of memory is a process' own: a child for each packing keeps them apart.
-  const ChildResult child = run_in_child(options.max_seconds, [&] {
-    measure_packing(box, options, point);
-    Packer packer;
-    carry(packer, point.measured);
-    return packer.bytes();
-  });
-  if (child.end != ChildEnd::complete)
-    throw Error("bench scaling: " + std::to_string(static_cast<long>(point.grains)) +
-                " grains: the child " +
-                (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
-  Unpacker unpacker(child.answer, "bench scaling: a child's answer");
-  carry(unpacker, point.measured);
-  unpacker.finish();
 }
 
 /// Contacts and impulses in the order of their keys.
@@ -383,7 +365,20 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
       point.threads = threads;
       std::tie(point.nx, point.ny) = tiles_for(grains, block);
       point.grains = static_cast<double>(point.nx) * point.ny * block;
-      measure_in_child(box, options, point);
+      // The peak of memory is a process' own: a child for each packing keeps them apart.
+      const ChildResult child = run_in_child(3600.0, [&] {
+        measure_packing(box, options, point);
+        Packer packer;
+        carry(packer, point.measured);
+        return packer.bytes();
+      });
+      if (child.end != ChildEnd::complete)
+        throw Error(
+            printed("bench scaling: %.0f grains: the child ", point.grains) +
+            (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
+      Unpacker unpacker(child.answer, "bench scaling: a child's answer");
+      carry(unpacker, point.measured);
+      unpacker.finish();
       points.push_back(std::move(point));
       said(points.back());
     }

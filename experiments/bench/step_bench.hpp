@@ -94,7 +94,6 @@ struct ScalingOptions {
   double tolerance = 1e-2;      ///< [g h] for the iterations needed
   int max_iterations = 300;
   std::vector<std::string> solvers{"pgs", "nncg"};
-  double max_seconds = 3600.0;  ///< wall clock of one packing
 };
 
 /// What was measured on one packing with one number of threads: by phase ns per grain and step,
@@ -112,8 +111,8 @@ struct ScalingPoint {
 /// Tiles nx * ny near grains / block, as square as can be.
 std::pair<int, int> tiles_for(long grains, int block);
 
-/// Each packing in a child process, so that its memory is its own. `said` hears of each. Throws
-/// Error where a child fails: out of memory, out of time.
+/// Each packing in a child process of at most an hour, so that its memory is its own. `said` hears
+/// of each. Throws Error where a child fails: out of memory, out of time.
 std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said);
 

@@ -118,13 +118,6 @@ CompareCase file_case(const fs::path& file) {
   return made;
 }
 
-/// Equal names: the place in the list decides.
-void make_names_unique(std::vector<CompareCase>& cases) {
-  std::map<std::string, int> seen;
-  for (CompareCase& c : cases)
-    if (const int count = ++seen[c.name]; count > 1) c.name += " (" + std::to_string(count) + ")";
-}
-
 // Problems that are made on the spot: manufactured ones with known solutions, piles, and those that
 // break solvers.
 
@@ -286,7 +279,9 @@ std::vector<CompareCase> compare_cases(const std::vector<std::string>& words) {
       for (const FoundProblem& found : find_problems(word)) cases.push_back(file_case(found.file));
     }
   }
-  make_names_unique(cases);
+  std::map<std::string, int> seen;
+  for (CompareCase& c : cases)
+    if (const int count = ++seen[c.name]; count > 1) c.name += " (" + std::to_string(count) + ")";
   return cases;
 }
 

@@ -65,7 +65,7 @@ struct Start {
 
 /// The scene run by its own solver to the common start, in a folder of its own: an ordinary run,
 /// resumed if it is there.
-void make_start(const LiveOptions& options, const Scene& scene) {
+Start make_start(const LiveOptions& options, const Scene& scene) {
   RunOptions run_options;
   run_options.scene = options.scene;
   run_options.overrides = options.overrides;
@@ -78,10 +78,7 @@ void make_start(const LiveOptions& options, const Scene& scene) {
   run_options.resume = true;
   if (run(run_options).code != ExitCode::ok)
     throw Error(run_options.output.string() + ": the start was not reached");
-}
-
-Start read_start(const LiveOptions& options, const Scene& scene) {
-  const RunFolder folder(options.folder / "start");
+  const RunFolder folder(run_options.output);
   Start start;
   start.system = system_of_run(folder.path(), start.state);
   Checkpoint checkpoint = read_checkpoint(folder.checkpoint());
@@ -223,9 +220,8 @@ LiveComparison run_live(const LiveOptions& options,
   LiveComparison comparison;
   comparison.scene = read_scene(find_scene(options.scene), options.overrides);
   comparison.velocity_scale = velocity_scale(comparison.scene);
-  make_start(options, comparison.scene);
+  const Start start = make_start(options, comparison.scene);
   const InterruptGuard guard;  // only now: run() has one of its own
-  const Start start = read_start(options, comparison.scene);
   comparison.has_driven_wall = start.system.first_driven_wall() >= 0;
   create_folder(options.folder / "trajectories");
   const std::string binary = binary_key();

@@ -52,13 +52,6 @@ void read_part(RunData& data, const char* name, const char* missing,
   }
 }
 
-void read_manifest(RunData& data, const std::string& text) {
-  data.manifest_text = text;
-  auto parsed = nlohmann::ordered_json::parse(text, nullptr, false);
-  if (!parsed.is_object()) throw Error(broken_json);
-  data.stored_manifest = std::make_shared<const nlohmann::ordered_json>(std::move(parsed));
-}
-
 /// What the scene knows: loads in weights of the grains, the wall's mass in theirs.
 void add_settings(const Scene& scene, RunFacts& facts) {
   facts.solver = scene.solver.name;
@@ -164,7 +157,13 @@ RunData read_run_data(const fs::path& folder) {
   check_times(folder, data.steps);
   note_gaps(data.steps, data.notices);
   read_part(data, "manifest.json", "machine, commit and the run's summary are not known.",
-            [&](const std::string& text) { read_manifest(data, text); });
+            [&](const std::string& text) {
+              data.manifest_text = text;
+              auto parsed = nlohmann::ordered_json::parse(text, nullptr, false);
+              if (!parsed.is_object()) throw Error(broken_json);
+              data.stored_manifest =
+                  std::make_shared<const nlohmann::ordered_json>(std::move(parsed));
+            });
   read_part(data, "scene.toml", "parameters are those of the manifest alone.",
             [&](const std::string& text) {
               data.scene_text = text;

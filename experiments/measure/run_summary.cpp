@@ -73,21 +73,6 @@ Statistics over_periods(const std::vector<WallPeriod>& periods, double WallPerio
   return statistics(values);
 }
 
-/// Mean of the judge's rms error after the transient, in units of the velocity scale.
-double error_after_transient(std::span<const StepRecord> steps, const RunFacts& facts) {
-  std::vector<double> errors;
-  for (const StepRecord& step : steps)
-    if (step.time > transient_of(facts.frequency)) errors.push_back(step.error_rms);
-  return statistics(errors).mean / facts.velocity_scale;
-}
-
-/// rho at the end of a period minus rho at its begin: both at the same phase of the load, so that
-/// the swing within the period drops out. NaN when the begin is not in the record.
-double gain_of(std::span<const StepRecord> steps, const WallPeriod& period) {
-  if (period.first == 0) return not_known;
-  return steps[period.last - 1].solid_fraction - steps[period.first - 1].solid_fraction;
-}
-
 /// Eq. 4 over the whole periods within a window: (rho(t_b) - rho(t_a)) / (reference (t_b - t_a))
 /// [1/s]; NaN where there is none.
 double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
@@ -114,7 +99,12 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
       compaction.reference = row.solid_fraction;
       break;
     }
-  for (const WallPeriod& period : periods) compaction.gains.push_back(gain_of(steps, period));
+  // rho at the end of a period minus rho at its begin: both at the same phase of the load, so that
+  // the swing within the period drops out; not known when the begin is not in the record
+  for (const WallPeriod& period : periods)
+    compaction.gains.push_back(period.first == 0 ? not_known
+                                                 : steps[period.last - 1].solid_fraction -
+                                                       steps[period.first - 1].solid_fraction);
   compaction.gain = statistics(compaction.gains).mean;
   compaction.relative_gain = compaction.gain / compaction.reference;
   const auto rate = [&](const TimeWindow& window) {
@@ -137,7 +127,10 @@ void summarise_wall(std::span<const StepRecord> steps, RunSummary& summary) {
   summary.speed_out = over_periods(periods, &WallPeriod::speed_out);
   summary.prefactor = summary.rise.mean / eq3_displacement(facts);
   summary.law = force_law(steps, summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity);
-  summary.error_counted = error_after_transient(steps, facts);
+  std::vector<double> errors;
+  for (const StepRecord& step : steps)
+    if (step.time > transient_of(facts.frequency)) errors.push_back(step.error_rms);
+  summary.error_counted = statistics(errors).mean / facts.velocity_scale;
 }
 
 bool overlaps(const RunSummary& run) {

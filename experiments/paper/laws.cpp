@@ -86,16 +86,6 @@ VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error) {
   return {fit.reduced(), f_p(fit.reduced(), fit.degrees_of_freedom, error.degrees_of_freedom)};
 }
 
-void add_offsets(double deviation, OneCurve& all) {
-  const WeightedFit shifted = fit_points(all.points, all.curve, 3, deviation, true);
-  all.offsets = improvement(all.curve.fit, shifted);
-  for (Eigen::Index k = 3; k < shifted.value.size(); ++k)
-    if (!(std::abs(shifted.value[k]) <= std::abs(all.largest_offset))) {
-      all.largest_offset = shifted.value[k];
-      all.offset_error = std::sqrt(shifted.covariance(k, k));
-    }
-}
-
 constexpr double to_mm = 1e3;
 
 /// Half width of the 95 % interval of a combination of the curve's values: the errors are the
@@ -367,7 +357,13 @@ OneCurve one_curve(const std::vector<Groups>& groups) {
     all.paired_misfit = misfit_of(polynomial(all.points, 3, all.paired.deviation).fit, all.paired);
   all.bend = improvement(all.line.fit, all.curve.fit);
   all.third = improvement(all.curve.fit, polynomial(all.points, 4, deviation).fit);
-  add_offsets(deviation, all);
+  const WeightedFit shifted = fit_points(all.points, all.curve, 3, deviation, true);
+  all.offsets = improvement(all.curve.fit, shifted);
+  for (Eigen::Index k = 3; k < shifted.value.size(); ++k)
+    if (!(std::abs(shifted.value[k]) <= std::abs(all.largest_offset))) {
+      all.largest_offset = shifted.value[k];
+      all.offset_error = std::sqrt(shifted.covariance(k, k));
+    }
   return all;
 }
 

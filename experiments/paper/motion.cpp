@@ -7,12 +7,6 @@
 #include "experiments/run/run_folder.hpp"
 
 namespace ballast {
-namespace {
-
-/// Below this part of its largest speed a moving wall is neither active nor passive yet.
-constexpr double slow_part = 0.2;
-
-}  // namespace
 
 double major_inclination(const Mat3& tensor) {
   // Mohr's circle: the direction of the larger principal value within the plane
@@ -103,8 +97,7 @@ int for_each_state(const MotionRun& run, const std::function<void(const StoredSt
     state.wall_speed = wall.velocity[row];
     const bool is_out = state.phase == WallPhase::active;
     const double largest = (is_out ? run.summary.speed_out : run.summary.speed_in).mean;
-    if ((is_out || state.phase == WallPhase::passive) &&
-        std::abs(state.wall_speed) < slow_part * largest)
+    if ((is_out || state.phase == WallPhase::passive) && std::abs(state.wall_speed) < 0.2 * largest)
       continue;
     see(state);
     ++count;

@@ -85,15 +85,6 @@ page::Table branch_table(const std::vector<MotionRun>& runs) {
   return table;
 }
 
-/// How f_g grows in the last tenth of the way in, over how it does in the middle of it: 1 for a
-/// line.
-double end_steepness(const MotionRun& run) {
-  const RunFacts& facts = run.summary.facts;
-  const ForceLaw last_tenth = force_law(run.data.steps, run.summary.wall, facts.grain_mass,
-                                        facts.wall_mass, facts.gravity, 0.0, 0.1);
-  return last_tenth.passive.slope / run.summary.law.passive.slope;
-}
-
 /// A law describes a branch when it leaves at most a tenth of its variance.
 const PaperRange good_fit = PaperRange::at_least(0.9);
 
@@ -287,8 +278,14 @@ void fill_forces(PaperData& data, PaperSection& section) {
                    creep = mean_over(runs, [](const auto&s) { return 1e3 * s.jammed.speed_mean; });
   const SampleMean share =
       mean_over(runs, [](const auto& s) { return s.jammed.speed_mean / s.speed_in.mean; });
+  // how f_g grows in the last tenth of the way in, over how it does in the middle: 1 for a line
   std::vector<double> steepness;
-  for (const MotionRun& run : runs) steepness.push_back(end_steepness(run));
+  for (const MotionRun& run : runs) {
+    const RunFacts& facts = run.summary.facts;
+    const ForceLaw last_tenth = force_law(run.data.steps, run.summary.wall, facts.grain_mass,
+                                          facts.wall_mass, facts.gravity, 0.0, 0.1);
+    steepness.push_back(last_tenth.passive.slope / run.summary.law.passive.slope);
+  }
   const SampleMean end = sample_mean(steepness);
   const page::Values words{{"end", words_of(end)},
                            {"active", page::number(active.mean)},

@@ -118,16 +118,6 @@ size_t place_of(std::string_view column) {
   return static_cast<size_t>(found - columns);
 }
 
-/// A plan is a file, so that its scenes have a place.
-Plan built_in_plan() {
-  const fs::path file =
-      fs::temp_directory_path() / ("ballast-campaign-" + std::to_string(getpid()) + ".toml");
-  write_whole_file(file, campaign_plan());
-  const Plan plan = read_plan(file);
-  fs::remove(file);
-  return plan;
-}
-
 /// Measured values of what was set, from records and from files of nine digits, are the same.
 double rounded(double value) { return parsed_number(printed("%.6g", value)).value_or(value); }
 
@@ -157,7 +147,14 @@ bool takes(const Selection& selection, const RunRow& row) {
 }  // namespace
 
 std::vector<PlannedRun> read_campaign(const CampaignSettings& settings) {
-  Plan plan = settings.plan.empty() ? built_in_plan() : read_plan(settings.plan);
+  fs::path file = settings.plan;
+  if (file.empty()) {
+    // A plan is a file, so that its scenes have a place.
+    file = fs::temp_directory_path() / printed("ballast-campaign-%d.toml", getpid());
+    write_whole_file(file, campaign_plan());
+  }
+  Plan plan = read_plan(file);
+  if (settings.plan.empty()) fs::remove(file);
   // Only those that are wanted: an override may fit no scene but theirs.
   if (!settings.only.empty()) plan.runs = select(plan, settings.only);
   for (PlannedRun& run : plan.runs) {

@@ -44,19 +44,6 @@ ModelPhase released(const WallModel& model, ModelPhase phase, double x, double l
   return can_go_out ? ModelPhase::out : ModelPhase::turning;
 }
 
-WallModel model_of(const RunSummary& s) {
-  return {.active = s.law.active,
-          .passive = s.law.passive,
-          .contraction = std::max(0.0, -s.net.mean),
-          .wall_mass = s.facts.wall_mass,
-          .load = {s.facts.f_min, s.facts.f_max, s.facts.frequency}};
-}
-
-bool can_be_modelled(const RunSummary& s) {
-  return !s.wall.periods.empty() && std::isfinite(s.law.active.rate) &&
-         std::isfinite(s.law.passive.slope) && std::isfinite(s.facts.wall_mass);
-}
-
 /// The last period: x from the jamming position against time, and f_g smoothed against v; the
 /// simulation's and the model's. Axes in s, mm, mm/s, kN or N.
 Figure draw(const MotionRun& run, const ModelMotion& model) {
@@ -131,8 +118,15 @@ void fill_model(PaperData& data, PaperSection& section) {
   Figure drawn;
   for (size_t k = 0; k < runs.size(); ++k) {
     const RunSummary& s = runs[k].summary;
-    if (!can_be_modelled(s)) continue;  // a run too short for the fits
-    const ModelMotion model = integrate(model_of(s));
+    if (s.wall.periods.empty() || !std::isfinite(s.law.active.rate) ||
+        !std::isfinite(s.law.passive.slope) || !std::isfinite(s.facts.wall_mass))
+      continue;  // a run too short for the fits
+    const ModelMotion model =
+        integrate({.active = s.law.active,
+                   .passive = s.law.passive,
+                   .contraction = std::max(0.0, -s.net.mean),
+                   .wall_mass = s.facts.wall_mass,
+                   .load = {s.facts.f_min, s.facts.f_max, s.facts.frequency}});
     rises.push_back(model.rise / s.rise.mean - 1.0);
     speeds.push_back(model.speed_in / s.speed_in.mean - 1.0);
     table.rows.push_back({std::to_string(k + 1), page::number(1e3 * s.rise.mean),
