@@ -31,10 +31,10 @@ constexpr StageColumn stage_columns[] = {{"Δx~max~ (mm)", 1e3, "rise"},
 /// A table of what some cases come to.
 struct CaseTable {
   const char* section;
-  std::vector<Selection> cases;
-  RunMeasure along = "frequency";  ///< what the rows of a case are at
-  RunMeasure exponent_along = "";  ///< empty: no exponents
-  bool has_changes = false;        ///< of each case beside the first
+  std::vector<std::pair<const char*, Selection>> cases;  ///< names and rows
+  RunMeasure along = "frequency";                        ///< what the rows of a case are at
+  RunMeasure exponent_along = "";                        ///< empty: no exponents
+  bool has_changes = false;                              ///< of each case beside the first
 };
 
 /// In the order of a section's tables. Rows of 23 November 2026 and before are recognised by their
@@ -227,9 +227,9 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
 
 void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
   std::vector<Case> cases;
-  for (const Selection& selection : what.cases)
-    if (Groups groups = data.groups(selection, what.along); !groups.empty())
-      cases.push_back({selection.name, std::move(groups)});
+  for (const auto& [name, rows] : what.cases)
+    if (Groups groups = data.groups(rows, what.along); !groups.empty())
+      cases.push_back({name, std::move(groups)});
   if (cases.empty()) return;
   section.add(stage_table(cases, unit_behind(what.along)));
   if (!what.exponent_along.empty()) add_exponents(what, cases, section);
@@ -245,7 +245,7 @@ void add_cases(PaperData& data, PaperSection& section) {
 
 void fill_replicas(PaperData& data, PaperSection& section) {
   Group slow, fast;
-  for (const RunRow* row : data.rows({"", "replicas"})) {
+  for (const RunRow* row : data.rows("replicas")) {
     if ((*row)["frequency"] == 10.0) slow.samples.push_back(row);
     if ((*row)["frequency"] == 60.0) fast.samples.push_back(row);
   }
@@ -267,10 +267,10 @@ void fill_replicas(PaperData& data, PaperSection& section) {
 }
 
 void fill_reading(PaperData& data, PaperSection& section) {
-  const Groups reading = data.groups({"", "reading"}, "frequency");
+  const Groups reading = data.groups("reading", "frequency");
   if (reading.empty()) return;
   // only frequencies that both scenes were driven at
-  Groups base = data.groups({"", "frequency; slowest"}, "frequency");
+  Groups base = data.groups("frequency; slowest", "frequency");
   std::erase_if(base, [&](const Group& group) { return !at(reading, group.value); });
   page::Table table = page::words_table("reading.table");
   int agree[2] = {0, 0};

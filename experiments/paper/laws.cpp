@@ -10,7 +10,8 @@ namespace {
 
 /// Points of one colour and mark, and a row of a table.
 struct Series {
-  Selection selection;  ///< its name in words
+  const char* name;
+  Selection rows;
   Ink ink;
   MarkShape shape = MarkShape::circle;
   RunMeasure along = "";        ///< what is varied
@@ -19,13 +20,10 @@ struct Series {
 /// What Eq. 3 has: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11. Rows of
 /// 23 November 2026 and before have g and m_w in one stage.
 const std::vector<Series> all_series{
-    {{"ν", "frequency; slowest"}, Ink::blue, MarkShape::triangle, "frequency", "ν"},
-    {{"f_max", "force"}, Ink::vermilion, MarkShape::circle, "force_over_weight", "f~max~"},
-    {{"g", "gravity; gravity-mass gravity!9.81"}, Ink::green, MarkShape::square, "gravity", "g"},
-    {{"m_w", "mass; gravity-mass gravity=9.81"},
-     Ink::purple,
-     MarkShape::diamond,
-     "grain_share",
+    {"ν", "frequency; slowest", Ink::blue, MarkShape::triangle, "frequency", "ν"},
+    {"f_max", "force", Ink::vermilion, MarkShape::circle, "force_over_weight", "f~max~"},
+    {"g", "gravity; gravity-mass gravity!9.81", Ink::green, MarkShape::square, "gravity", "g"},
+    {"m_w", "mass; gravity-mass gravity=9.81", Ink::purple, MarkShape::diamond, "grain_share",
      "m~w~"}};
 
 /// Settings so near to one another are the same: the base run of all series is known again.
@@ -218,27 +216,27 @@ std::vector<Law> all_laws() {
       gravity{"gravity", "*g*  (m/s^2^)", 1.0}, mass{"grain_share", "*m* / (*m* + *m*~w~)", 1.0},
       eq3{"eq3", "right side of Eq. 3 without *C*  (mm)", 1e3}, aspect{"aspect", "*L*/*H*", 1.0},
       theory{"prefactor_theory", "*C* by the theory, from the force as measured", 1.0};
-  const Selection slow{"5 Hz", "box frequency=5"}, fast{"20 Hz", "box frequency=20"},
-      pressed{"ν",
-              "frequency; slowest; tight; tightest; deposits lid_pressure>0 deposit_friction=0.4"};
+  const Series slow{"5 Hz", "box frequency=5", Ink::blue},
+      fast{"20 Hz", "box frequency=20", Ink::vermilion};
   // a run of several families is a point of the first
   const std::vector<Series> everything{
-      {pressed, Ink::blue},
-      {all_series[1].selection, Ink::vermilion, triangle},
-      {all_series[2].selection, Ink::green, square},
-      {all_series[3].selection, Ink::purple, diamond},
-      {{"L/H", "box"}, Ink::orange},
-      {{"light wall", "loads"}, Ink::black, triangle},
-      {{"deposit", "deposits"}, Ink::grey, square},
-      {{"grains, size", "shapes; sizes; reading"}, Ink::sky, diamond}};
+      {"ν", "frequency; slowest; tight; tightest; deposits lid_pressure>0 deposit_friction=0.4",
+       Ink::blue},
+      {"f_max", "force", Ink::vermilion, triangle},
+      all_series[2],
+      all_series[3],
+      {"L/H", "box", Ink::orange},
+      {"light wall", "loads", Ink::black, triangle},
+      {"deposit", "deposits", Ink::grey, square},
+      {"grains, size", "shapes; sizes; reading", Ink::sky, diamond}};
   return {{"fig9", "fig9", {all_series[0]}, frequency, rise, -2.0, 10.0},
           {"fig9", "fig9_speed", {all_series[0]}, frequency, speed, -1.0, 10.0},
           {"fig10", "fig10", {all_series[1]}, force, rise, -1.0, 3.0},
           {"fig10", "fig10_gravity", {all_series[2]}, gravity, rise, 2.0, 5.0},
           {"fig10", "fig10_mass", {all_series[3]}, mass, rise, 1.0, 0.6},
           {"fig11", "fig11", all_series, eq3, rise, 1.0, 10.0, paper::prefactor},
-          {"box", "box_slow", {{slow, Ink::blue}}, aspect, prefactor, -1.0, 1.5},
-          {"box", "box_fast", {{fast, Ink::vermilion}}, aspect, prefactor, -1.0, 1.5},
+          {"box", "box_slow", {slow}, aspect, prefactor, -1.0, 1.5},
+          {"box", "box_fast", {fast}, aspect, prefactor, -1.0, 1.5},
           {"theory", "theory", everything, theory, prefactor, 1.0, not_known, 1.0}};
 }
 
@@ -279,7 +277,7 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
   Groups drawn;
   for (const Series& family : law.families) {
     Groups distinct;
-    for (Group& group : data.settings(family.selection))
+    for (Group& group : data.settings(family.rows))
       if (law.is_of_paper() || seen.insert(group.samples.front()->key).second)
         distinct.push_back(std::move(group));
     std::ranges::sort(distinct, {},
@@ -288,10 +286,10 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
         points_of(distinct, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
     if (points.x.empty()) continue;
     drawn.insert(drawn.end(), distinct.begin(), distinct.end());
-    panel.curves.push_back(curve_of(points, family.selection.name, family.ink, family.shape));
+    panel.curves.push_back(curve_of(points, family.name, family.ink, family.shape));
     const PowerFit fit = fit_power(points.x, points.y);
     const Proportion ratio = fit_proportion(points.x, points.y);
-    table.rows.push_back({page::words(law.name + std::string(".title")), family.selection.name,
+    table.rows.push_back({page::words(law.name + std::string(".title")), family.name,
                           std::to_string(points.x.size()), words_of(fit),
                           words_of(misfit_of(fit, points)),
                           law.exponent == 1.0 ? words_of(ratio) : page::Text("–")});
@@ -373,8 +371,7 @@ double force_of_prefactor(double prefactor) {
 
 void fill_curve(PaperData& data, PaperSection& section) {
   std::vector<Groups> groups;
-  for (const Series& series : all_series)
-    groups.push_back(data.groups(series.selection, series.along));
+  for (const Series& series : all_series) groups.push_back(data.groups(series.rows, series.along));
   const OneCurve all = one_curve(groups);
   if (!all.is_known()) return;
   const page::Values words = words_for(all);

@@ -241,7 +241,7 @@ void add_falling_branch(const Groups& groups, PaperSection& section) {
 void fill_motion(PaperData& data, PaperSection& section) {
   const std::vector<MotionRun> runs = read_motion(data);
   if (!runs.empty()) add_motion(runs, section);
-  const Groups groups = data.groups({"", "frequency; slowest"}, "frequency");
+  const Groups groups = data.groups("frequency; slowest", "frequency");
   if (groups.size() < 2) return;
   // when the first contraction is over, at all frequencies
   const Points times = points_of(groups, "frequency", "first_time90");
@@ -376,7 +376,7 @@ void fill_portraits(PaperData& data, PaperSection& section) {
 }
 
 void fill_rates(PaperData& data, PaperSection& section) {
-  const Groups groups = data.groups({"", "frequency; slowest"}, "frequency");
+  const Groups groups = data.groups("frequency; slowest", "frequency");
   Panel panel = frequency_panel("compaction rate  *η*  (1/s)");
   page::Values words;
   // D as the paper has it: the gain of a period at 5 Hz over rho_0

@@ -135,7 +135,7 @@ bool says(const RunRow& row, const std::string& condition) {
 }
 
 bool takes(const Selection& selection, const RunRow& row) {
-  return std::ranges::any_of(split(selection.rows, ';'), [&](const std::string& stage) {
+  return std::ranges::any_of(split(selection, ';'), [&](const std::string& stage) {
     std::istringstream words(stage);
     std::string word;
     bool holds = words >> word && word == row.stage;

@@ -82,10 +82,7 @@ std::string record_hash(std::span<const StepRecord> steps);
 /// Rows of some stages, each with what its rows must say: "force; sizes name~wide grains>600".
 /// A number is =, ! (another), < or > (to six digits), the solver = or !, and the name holds a
 /// part.
-struct Selection {
-  const char* name;  ///< a case of a table, a series of a figure
-  std::string rows;
-};
+using Selection = std::string;
 
 /// One value of what is varied.
 struct Group {

@@ -235,7 +235,7 @@ void fill_velocities(PaperData& data, PaperSection& section) {
   // paper looks: a roll of either sense will do.
   std::vector<double> round;
   double closed = 0.0;
-  for (const RunRow* row : data.rows({"", "motion"})) {
+  for (const RunRow* row : data.rows("motion")) {
     round.push_back(
         Roll{{(*row)["roll_top"], (*row)["roll_right"], (*row)["roll_bottom"], (*row)["roll_left"]},
              (*row)["circulation"]}

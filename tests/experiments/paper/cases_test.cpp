@@ -140,7 +140,7 @@ TEST_CASE("C against its theory: the force that the grains push with gives it, p
     const double force = 200.0 / 0.6 / (200.0 * 9.81), carried = wall * 0.4 / 0.6;
     return 9.0 / (4.0 * M_PI * M_PI) * force * force * (1.0 + wall) / (wall + carried);
   };
-  for (const RunRow* row : data.rows({"", "mass"}))
+  for (const RunRow* row : data.rows("mass"))
     CHECK((*row)["prefactor_theory"] ==
           Approx(theory((*row)["wall_mass_over_grains"])).epsilon(0.02));
   const PaperSection section = section_named(data, "theory");

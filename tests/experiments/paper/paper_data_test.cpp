@@ -15,7 +15,7 @@ using namespace ballast;
 
 namespace {
 
-const Selection frequencies{"ν", "frequency"};
+const Selection frequencies = "frequency";
 
 bool is_first_sample(const PlannedRun&, const Scene& scene) {
   return scene.grains->seed == 1 && (scene.drive.frequency == 5.0 || scene.drive.frequency == 20.0);
@@ -185,7 +185,7 @@ TEST_CASE("a selection takes rows by stage and by what they say, to six digits")
     rows[3]["grains"] = 600.0;
     return rows;
   }());
-  const auto taken = [&](const char* words) { return data.rows(Selection{"", words}).size(); };
+  const auto taken = [&](const char* words) { return data.rows(words).size(); };
   CHECK(taken("force") == 3);
   CHECK(taken("force; sizes") == 4);
   CHECK(taken("sizes name~wide; force grains>400") == 2);
