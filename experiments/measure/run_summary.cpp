@@ -186,18 +186,17 @@ std::string energy_words(const RunSummary& run) {
 }  // namespace
 
 std::vector<Displacement> period_displacements(std::span<const MotionState> frames,
-                                               std::span<const WallPeriod> periods, double h,
-                                               size_t grains) {
+                                               const RunSummary& summary) {
   const auto frame_at = [&](double time) {
     return std::find_if(frames.begin(), frames.end(), [&](const MotionState& frame) {
-      return std::abs(frame.time - time) < 0.6 * h;
+      return std::abs(frame.time - time) < 0.6 * summary.facts.step;
     });
   };
   std::vector<Displacement> all;
-  for (const WallPeriod& period : periods) {
+  for (const WallPeriod& period : summary.wall.periods) {
     const auto begin = frame_at(period.begin), end = frame_at(period.end);
     if (begin == frames.end() || end == frames.end()) continue;
-    for (size_t b = 0; b < grains; ++b) {
+    for (size_t b = 0; b < static_cast<size_t>(summary.facts.grains); ++b) {
       const Vec3 &from = begin->pose[b].position, &to = end->pose[b].position;
       all.push_back({0.5 * (from + to), to - from});
     }
@@ -274,8 +273,7 @@ Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summ
   const RunFacts& facts = summary.facts;
   if (!(facts.grains > 0.0)) return {};
   const double length = facts.length, top = facts.height;
-  return roll_of(period_displacements(frames, summary.wall.periods, facts.step,
-                                      static_cast<size_t>(facts.grains)),
+  return roll_of(period_displacements(frames, summary),
                  {0.25 * length, 0.75 * length, 0.25 * top, 0.75 * top}, facts.largest_size);
 }
 

@@ -45,11 +45,6 @@ struct Displacement {
   Vec3 place;  ///< of its centre, at the middle of its way [m]
   Vec3 move;   ///< [m]
 };
-/// Of the first `grains` bodies over the periods that count, where a frame is stored at both ends
-/// (to a step of `h` [s]).
-std::vector<Displacement> period_displacements(std::span<const MotionState> frames,
-                                               std::span<const WallPeriod> periods, double h,
-                                               size_t grains);
 
 /// A rectangle in the xz plane; y is averaged over.
 struct XzRectangle {
@@ -197,6 +192,9 @@ struct RunSummary {
   Roll roll;  ///< from stored poses (roll_of_periods): summarise, which has none, leaves it out
 };
 
+/// Of the grains over a summary's periods, where a frame is stored at both ends (to a step).
+std::vector<Displacement> period_displacements(std::span<const MotionState> frames,
+                                               const RunSummary& summary);
 /// Around the middle half of the box, of a summary's periods. Not known where the facts lack the
 /// box, or no frame stands at a period's ends.
 Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summary);

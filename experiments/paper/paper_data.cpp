@@ -110,7 +110,7 @@ constexpr TextColumn text_columns[] = {{"name", &RunRow::name},
                                        {"solver", &RunRow::solver}};
 constexpr size_t texts = std::size(text_columns);
 
-/// Where a column stands among the numbers.
+/// Where a column stands among the numbers. Throws std::invalid_argument naming it.
 size_t place_of(std::string_view column) {
   const auto* found = std::ranges::find(columns, column, &RunColumn::name);
   if (found == std::end(columns))

@@ -88,9 +88,7 @@ Figure period_field(const MotionRun& run, double& rms) {
   const XzRectangle box{0.0, facts.length, 0.0, facts.height};
   const auto frames = read_record_poses(run.data.folder / "record.h5");
   const std::vector<Displacement> cells =
-      cell_means(period_displacements(frames, run.summary.wall.periods, facts.step,
-                                      static_cast<size_t>(facts.grains)),
-                 box, 9, 8);
+      cell_means(period_displacements(frames, run.summary), box, 9, 8);
   double squares = 0.0;
   for (const Displacement& cell : cells)
     squares += cell.move.x() * cell.move.x() + cell.move.z() * cell.move.z();

@@ -76,14 +76,18 @@ TEST_CASE("displacements of whole periods are taken between the frames at their 
     frames[k].pose.resize(2);
     frames[k].pose[0].position.x() = k * k;
   }
-  std::vector<WallPeriod> periods(3);
+  RunSummary run;
+  run.facts.step = 1e-4;
+  run.facts.grains = 1;
+  std::vector<WallPeriod>& periods = run.wall.periods;
+  periods.resize(3);
   periods[0].begin = 0.1;
   periods[0].end = 0.2;
   periods[1].begin = 0.2;
   periods[1].end = 0.30005;  // half a step away
   periods[2].begin = 0.3;
   periods[2].end = 0.4;  // no frame there
-  const auto moves = period_displacements(frames, periods, 1e-4, 1);
+  const auto moves = period_displacements(frames, run);
   REQUIRE(moves.size() == 2);
   CHECK(moves[0].move.x() == 3.0);
   CHECK(moves[1].move.x() == 5.0);
