@@ -21,10 +21,10 @@
 namespace ballast {
 
 struct CampaignSettings {
-  std::filesystem::path plan;          ///< empty: campaign.toml
-  std::string scene;                   ///< instead of vibrated_box, name or path; empty: that one
-  std::vector<std::string> overrides;  ///< of every run, after the plan's own
-  std::string only;                    ///< names of the runs, as a shell's pattern; empty: all
+  std::filesystem::path plan = {};  ///< empty: campaign.toml
+  std::string scene = {};           ///< instead of vibrated_box, name or path; empty: that one
+  std::vector<std::string> overrides = {};  ///< of every run, after the plan's own
+  std::string only = {};                    ///< names of the runs, as a shell's pattern; empty: all
 };
 
 /// Stage by stage, the most important first; equal runs of several stages have one key. Throws
