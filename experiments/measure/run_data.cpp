@@ -61,9 +61,12 @@ void add_settings(const Scene& scene, RunFacts& facts) {
   if (scene.solver.tolerance > 0.0) facts.tolerance = scene.solver.tolerance;
   facts.gravity = scene.gravity.norm();
   facts.has_packing = scene.grains.has_value();
-  facts.has_wall = facts.has_packing || std::ranges::any_of(scene.walls, [](const WallSpec& wall) {
-                     return wall.motion == WallMotion::driven;
-                   });
+  facts.has_wall = facts.has_packing;
+  for (const WallSpec& wall : scene.walls)
+    if (wall.motion == WallMotion::driven) {
+      facts.has_wall = true;
+      facts.frequency = wall.load.frequency;
+    }
   for (const BodySpec& body : scene.bodies)
     if (body.shape)
       facts.smallest_size = std::fmin(facts.smallest_size, body.shape->circumradius());

@@ -60,6 +60,12 @@ TEST_CASE("facts come from the manifest, what it lacks from the scene") {
   CHECK(data.facts.tolerance == 0.01);
   CHECK(data.facts.wall_mass == Approx(50.0));
   CHECK(data.facts.has_wall);
+  // a wall that is driven without grains
+  std::ofstream(folder.path() / "scene.toml")
+      << resolve_scene(find_scene("empty_driven_wall")).text;
+  const RunFacts bare = read_run_data(folder.path()).facts;
+  CHECK((bare.has_wall && !bare.has_packing));
+  CHECK(bare.frequency == 5.0);
 }
 
 TEST_CASE("a record whose time does not grow is refused, as is a folder that isn't there") {
