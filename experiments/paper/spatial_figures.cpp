@@ -61,15 +61,9 @@ Figure arrows_in_box(const std::vector<Displacement>& moves, double rms, const X
                       .curves = {walls, std::move(arrows)}}}};
 }
 
-struct Field {
-  Figure figure;
-  double wall = 0.0;   ///< inward speed of the wall [m/s]
-  double speed = 0.0;  ///< rms of the grains drawn [m/s]
-};
-
-Field draw(const StoredState& state) {
+/// The velocities of the grains of the section. `rms` of them [m/s].
+Figure velocity_field(const StoredState& state, double& rms) {
   const MotionState& motion = state.at.state;
-  // the grains of the section, and how fast they are
   std::vector<Displacement> section;
   double squares = 0.0;
   for (size_t k = 0; k < static_cast<size_t>(state.system.grain_count); ++k)
@@ -77,9 +71,8 @@ Field draw(const StoredState& state) {
       section.push_back({motion.pose[k].position, motion.velocity[k]});
       squares += motion.velocity[k].squaredNorm();
     }
-  const double speed =
-      std::sqrt(squares / std::max<double>(1.0, static_cast<double>(section.size())));
-  return {arrows_in_box(section, speed, state.box()), -state.wall_speed, speed};
+  rms = std::sqrt(squares / std::max<double>(1.0, static_cast<double>(section.size())));
+  return arrows_in_box(section, rms, state.box());
 }
 
 /// The mean displacement of a period on a grid: a roll would close. `rms` of the cells [m].
@@ -220,12 +213,15 @@ class Histogram {
 void fill_velocities(PaperData& data, PaperSection& section) {
   const std::vector<MotionRun> runs = read_motion(data);
   // of the first sample the state with the fastest inward wall is drawn
-  Field field;
+  Figure field;
+  double wall = 0.0, speed = 0.0;  // of the wall, inward; of the grains, rms [m/s]
   if (!runs.empty())
     for_each_state(runs.front(), [&](const StoredState& state) {
-      if (state.phase == WallPhase::passive && -state.wall_speed > field.wall) field = draw(state);
+      if (state.phase != WallPhase::passive || !(-state.wall_speed > wall)) return;
+      wall = -state.wall_speed;
+      field = velocity_field(state, speed);
     });
-  if (field.figure.panels.empty()) {
+  if (field.panels.empty()) {
     section.notes.push_back("PARTIAL: no stored state in the passive phase.");
     return;
   }
@@ -241,12 +237,12 @@ void fill_velocities(PaperData& data, PaperSection& section) {
     closed += round.back() > 0.0;
   }
   const SampleMean roundness = sample_mean(round);
-  page::Values words{{"wall", page::number(1e3 * field.wall)},
-                     {"arrow", page::number(1e3 * field.speed)},
+  page::Values words{{"wall", page::number(1e3 * wall)},
+                     {"arrow", page::number(1e3 * speed)},
                      {"round", words_of(roundness)},
                      {"closed", page::number(closed)},
                      {"samples", std::to_string(round.size())}};
-  section.draw("fig6", field.figure, words);
+  section.draw("fig6", field, words);
   if (roundness.samples > 0) {
     double rms = 0.0;
     const Figure drift = period_field(runs.front(), rms);
