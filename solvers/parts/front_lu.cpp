@@ -134,7 +134,7 @@ bool FrontLu::factor(const SparseColumns& a) {
 bool FrontLu::factor_front(int number, const double* values, bool shares) {
   const Front& front = tree_.fronts[number];
   double *numbers = numbers_.data() + front.numbers_at,
-         *boundary = boundaries_.data() + front.boundary_at;
+         *boundary = boundaries_.data() + front.boundary_made_at;
   const std::int64_t own = front.own, outside = front.boundary();
   std::fill_n(numbers, own * (front.rows + outside), 0.0);
   std::fill_n(boundary, outside * outside, 0.0);
@@ -145,14 +145,16 @@ bool FrontLu::factor_front(int number, const double* values, bool shares) {
     while (tree_.fronts[child].parent != number) --child;
     extend_add(child, front, boundary);
   }
-  return eliminate(front, boundary, shares);
+  if (!eliminate(front, boundary, shares)) return false;
+  std::copy_n(boundary, outside * outside, boundaries_.data() + front.boundary_kept_at);
+  return true;
 }
 
 /// The child's rows, which ascend, are first rows of the parent's own unknowns, then rows of its
 /// boundary; so are its columns. That makes four blocks, in three places.
 void FrontLu::extend_add(int child, const Front& front, double* boundary) {
   const int own = front.own, rows = tree_.fronts[child].boundary();
-  const double* from = boundaries_.data() + tree_.fronts[child].boundary_at;
+  const double* from = boundaries_.data() + tree_.fronts[child].boundary_kept_at;
   double* columns = numbers_.data() + front.numbers_at;
   double* rest = columns + static_cast<std::int64_t>(front.rows) * own;
   const Run *first = runs_.data() + runs_begin_[child],

@@ -7,7 +7,6 @@
 // symmetry halves the bookkeeping. Needs SuiteSparse for the ordering: without it analyse() throws
 // UnsupportedProblem.
 
-#include <cstdint>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -53,7 +52,7 @@ class FrontLu {
   SparsePattern pattern_;
   std::vector<int> unknown_begin_;
   FrontTree tree_;
-  std::vector<double> numbers_, boundaries_;  ///< by front
+  std::vector<double> numbers_, boundaries_;  ///< as each Front says
   std::vector<Entry> entries_;                ///< by front
   std::vector<int> entries_begin_;            ///< fronts + 1
   std::vector<Run> runs_;                     ///< by front

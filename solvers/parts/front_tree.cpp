@@ -1,7 +1,7 @@
 #include "solvers/parts/front_tree.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <ranges>
 
 namespace ballast {
 namespace {
@@ -157,6 +157,35 @@ void share_out(FrontTree& tree) {
   }
 }
 
+/// A stack of boundaries for these fronts, children before parents, behind all stacks before it.
+template <typename Fronts>
+void stack_boundaries(FrontTree& tree, const Fronts& numbers) {
+  const auto size = [&](int f) {
+    return static_cast<std::int64_t>(tree.fronts[f].boundary()) * tree.fronts[f].boundary();
+  };
+  std::vector<int> waiting;
+  std::int64_t top = tree.boundaries;
+  for (const int f : numbers) {
+    tree.fronts[f].boundary_made_at = top;
+    tree.boundaries = std::max(tree.boundaries, top + size(f));
+    for (; !waiting.empty() && tree.fronts[waiting.back()].parent == f; waiting.pop_back())
+      top -= size(waiting.back());
+    tree.fronts[f].boundary_kept_at = top;
+    top += size(f);
+    waiting.push_back(f);
+  }
+}
+
+void lay_out(FrontTree& tree) {
+  for (Front& front : tree.fronts) {
+    front.numbers_at = tree.numbers;
+    tree.numbers += static_cast<std::int64_t>(front.own) * (front.rows + front.boundary());
+  }
+  for (const auto& [first, end] : tree.branches)
+    stack_boundaries(tree, std::views::iota(first, end));
+  stack_boundaries(tree, tree.trunk);
+}
+
 }  // namespace
 
 BlockGraph block_graph(const std::vector<int>& unknown_begin, const int* outer, const int* inner) {
@@ -237,14 +266,8 @@ FrontTree make_front_tree(const BlockGraph& graph, const std::vector<int>& order
       result.row_in_parent[i] = row - result.fronts[front.parent].rows_begin;
     }
   }
-  for (Front& front : result.fronts) {
-    const std::int64_t rows = front.rows, own = front.own, boundary = front.boundary();
-    front.numbers_at = result.numbers;
-    front.boundary_at = result.boundaries;
-    result.numbers += rows * own + own * boundary;
-    result.boundaries += boundary * boundary;
-  }
   share_out(result);
+  lay_out(result);
   return result;
 }
 

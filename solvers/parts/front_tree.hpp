@@ -41,8 +41,13 @@ struct Front {
   /// Where its numbers lie: its own columns (rows x own, column-major), in which L below and U
   /// above the diagonal come to stand, then the rest of its own rows (own x boundary).
   std::int64_t numbers_at = 0;
-  /// Where what it passes on lies (boundary x boundary, column-major).
-  std::int64_t boundary_at = 0;
+  /// What it passes on (boundary x boundary, column-major) is made above what its children left,
+  /// and then moved down over them, where it waits for its parent:
+  ///
+  ///     | .. | child 1 | child 2 | own |    ->    | .. | own |
+  ///
+  /// Every branch has such a stack of its own, and the trunk one.
+  std::int64_t boundary_made_at = 0, boundary_kept_at = 0;
   int boundary() const { return rows - own; }
 };
 
@@ -61,7 +66,7 @@ struct FrontTree {
   std::vector<int> row_in_parent;
   std::vector<std::pair<int, int>> branches;  ///< fronts [first, second) of each
   std::vector<int> trunk;                     ///< ascending: children before parents
-  std::int64_t numbers = 0, boundaries = 0;   ///< of all fronts
+  std::int64_t numbers = 0, boundaries = 0;   ///< of all fronts; of all stacks
 };
 
 /// `order[k]` is the node to eliminate k-th; the tree may exchange nodes that do not see each
