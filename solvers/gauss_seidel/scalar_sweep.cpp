@@ -29,7 +29,12 @@ BALLAST_INLINE Vector4 halves(const Vector8& x) {
   return __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
 }
 
-/// The sums of three vectors' entries.
+BALLAST_INLINE double sum(const Vector8& x) {
+  const Vector4 p = halves(x);
+  return (p[0] + p[1]) + (p[2] + p[3]);
+}
+
+/// The sums of three vectors' entries, each as sum() adds them.
 BALLAST_INLINE Vector4 three_sums(const Vector8& x, const Vector8& y, const Vector8& z) {
   const Vector4 p = halves(x), q = halves(y), s = halves(z);
   const Vector4 pq =
@@ -70,9 +75,25 @@ BALLAST_INLINE void relax(const Record& k, Impulse& r, Velocity* velocity) {
   store8(vb, wb + push(1));
 }
 
+/// The same of a contact without friction: a third of the work.
+BALLAST_INLINE void relax_one_row(const Record& k, Impulse& r, Velocity* velocity) {
+  double* va = velocity[k.body[0]].w;
+  double* vb = velocity[k.body[1]].w;
+  const Vector8 wa = load8(va), wb = load8(vb), ga = load8(k.rows[0][0]), gb = load8(k.rows[1][0]);
+  double y = r.y[0] - (sum(ga * wa + gb * wb) + k.bias[0]) * k.local.inverse_normal;
+  if (y <= 0.0) y = 0.0;
+  const double dy = y - r.y[0];
+  r.y[0] = y;
+  store8(va, wa + ga * dy);
+  store8(vb, wb + gb * dy);
+}
+
+/// Contacts with friction come first.
 BALLAST_FOR_EACH_CPU
-void sweep_records(const Record* records, Impulse* impulses, int count, Velocity* velocity) {
-  for (int c = 0; c < count; ++c) relax(records[c], impulses[c], velocity);
+void sweep_records(const Record* records, Impulse* impulses, int with_friction, int count,
+                   Velocity* velocity) {
+  for (int c = 0; c < with_friction; ++c) relax(records[c], impulses[c], velocity);
+  for (int c = with_friction; c < count; ++c) relax_one_row(records[c], impulses[c], velocity);
 }
 
 /// x moves along its search (see SearchStep); a slip root in lane 3 is left alone.
@@ -91,9 +112,10 @@ void move_bodies(SearchStep step, Velocity* x, Velocity* before, Velocity* direc
 /// Returns the square of what the sweep changed.
 BALLAST_FOR_EACH_CPU
 double sweep_records_along(SearchStep step, const Record* records, Impulse* impulses,
-                           Impulse* before, Impulse* direction, int count, Velocity* velocity) {
-  double square = 0.0;
-  for (int c = 0; c < count; ++c) {
+                           Impulse* before, Impulse* direction, int with_friction, int count,
+                           Velocity* velocity) {
+  double square = 0.0, square_one_row = 0.0;
+  for (int c = 0; c < with_friction; ++c) {
     Impulse& r = impulses[c];
     const double slip = r.slip;
     move_along<Vector4>(step, r.y, before[c].y, direction[c].y);
@@ -103,10 +125,17 @@ double sweep_records_along(SearchStep step, const Record* records, Impulse* impu
                  d2 = r.y[2] - before[c].y[2];
     square += d0 * d0 + d1 * d1 + d2 * d2;
   }
-  return square;
+  for (int c = with_friction; c < count; ++c) {
+    double &y = impulses[c].y[0], &began = before[c].y[0];
+    step.move(y - began, direction[c].y[0], y);
+    began = y;
+    relax_one_row(records[c], impulses[c], velocity);
+    square_one_row += (y - began) * (y - began);
+  }
+  return square + square_one_row;
 }
 
-/// w += G^T change.
+/// w += G^T change. Not by Vector8: without AVX the compiler spreads a number through memory.
 void push_bodies(const Record& k, const double* change, Velocity* velocity) {
   for (int s = 0; s < 2; ++s)
     for (int j = 0; j < ScalarSweep::width; ++j)
@@ -120,7 +149,7 @@ void resolve_by_variant(const SweepVariant& variant, const Record& k, Impulse& r
   double y[3] = {r.y[0], r.y[1], r.y[2]};
   if (k.row_count == 1) {
     // Every rule solves one row exactly: what is left is relaxation.
-    relax(k, r, velocity);
+    relax_one_row(k, r, velocity);
     y[0] = std::max(0.0, y[0] + variant.relaxation * (r.y[0] - y[0]));
   } else {
     double u[3] = {k.bias[0], k.bias[1], k.bias[2]};
@@ -144,8 +173,8 @@ void resolve_by_variant(const SweepVariant& variant, const Record& k, Impulse& r
   return ContactJudge::scaled_natural_map({rn, r1, r2}, {un, u1, u2}, mu, lambda_max);
 }
 
-/// The judge's scaled natural map at the current iterate [m/s].
-BALLAST_FOR_EACH_CPU
+/// The judge's scaled natural map at the current iterate [m/s]. For one instruction set: where wide
+/// registers meet judged()'s narrow ones, a processor may wait longer than all of this takes.
 double natural_map(const Record& k, const Impulse& r, double lambda_max, const Velocity* velocity) {
   const Vector4 moved =
       relative_velocity(k, load8(velocity[k.body[0]].w), load8(velocity[k.body[1]].w));
@@ -180,13 +209,16 @@ double to_principal(Record& k, double mu, TangentTurn& turn) {
   const auto product = [&k](int i, int j) __attribute__((always_inline)) {
     return load8(k.rows[0][i]) * load8(k.rows[0][j]) + load8(k.rows[1][i]) * load8(k.rows[1][j]);
   };
+  Eigen::Matrix3d w = Eigen::Matrix3d::Zero();
+  if (k.row_count == 1) {
+    w(0, 0) = sum(product(0, 0));
+    make_principal(w, mu, k.local, turn);
+    return w(0, 0);
+  }
   const Vector4 first = three_sums(product(0, 0), product(1, 0), product(2, 0));
   const Vector4 rest = three_sums(product(1, 1), product(2, 1), product(2, 2));
-  Eigen::Matrix3d w;
   w << first[0], first[1], first[2], first[1], rest[0], rest[1], first[2], rest[1], rest[2];
   make_principal(w, mu, k.local, turn);
-  if (k.row_count == 1) return w(0, 0);
-
   // Tangents turned, and c times the normal row taken off, as PrincipalContact wants it.
   turn.to_principal(k.bias[1], k.bias[2]);
   k.bias[1] -= k.local.c1 * k.bias[0];
@@ -253,15 +285,19 @@ void ScalarSweep::load(const FrictionProblem& problem, const Impulses& r) {
   velocity_ = free_velocity_;
   for (int c = 0; c < problem.contact_count(); ++c) {
     const Record& k = records_[place_[c]];
-    Impulse& impulse = impulses_[place_[c]];
     const double* given = r.data() + problem.row_begin[c];
-    impulse = {};
+    double normal = given[0], t1 = 0.0, t2 = 0.0;
+    if (k.row_count == 3) {
+      t1 = given[1];
+      t2 = given[2];
+      turn_[place_[c]].to_principal(t1, t2);
+    }
     // An impulse that moves nothing would stay as it was given.
-    if (k.local.inverse_normal > 0.0) std::copy_n(given, k.row_count, impulse.y);
-    turn_[place_[c]].to_principal(impulse.y[1], impulse.y[2]);
+    if (!(k.local.inverse_normal > 0.0)) normal = t1 = t2 = 0.0;
     // PrincipalContact's y = r_N + c . r_T stands in place of r_N.
-    impulse.y[0] = impulse.y[0] + k.local.c1 * impulse.y[1] + k.local.c2 * impulse.y[2];
-    push_bodies(k, impulse.y, velocity_.data());
+    const double y[3] = {normal + k.local.c1 * t1 + k.local.c2 * t2, t1, t2};
+    impulses_[place_[c]] = {{y[0], y[1], y[2]}, 0.0};
+    push_bodies(k, y, velocity_.data());
   }
 }
 
@@ -269,16 +305,20 @@ void ScalarSweep::store(const FrictionProblem& problem, Impulses& r) const {
   for (int c = 0; c < problem.contact_count(); ++c) {
     const Record& k = records_[place_[c]];
     const double* y = impulses_[place_[c]].y;
-    Eigen::Vector3d stored(y[0] - k.local.c1 * y[1] - k.local.c2 * y[2], y[1], y[2]);
-    turn_[place_[c]].from_principal(stored[1], stored[2]);
-    std::copy_n(stored.data(), k.row_count, r.data() + problem.row_begin[c]);
+    double t1 = y[1], t2 = y[2];
+    double* to = r.data() + problem.row_begin[c];
+    to[0] = y[0] - k.local.c1 * t1 - k.local.c2 * t2;
+    if (k.row_count == 1) continue;
+    turn_[place_[c]].from_principal(t1, t2);
+    to[1] = t1;
+    to[2] = t2;
   }
 }
 
 void ScalarSweep::sweep() {
   for_parts([this](const SweepPlan::Part& part, int) {
     sweep_records(records_.data() + part.begin, impulses_.data() + part.begin,
-                  part.end - part.begin, velocity_.data());
+                  part.friction_end - part.begin, part.end - part.begin, velocity_.data());
   });
 }
 
@@ -294,14 +334,10 @@ double ScalarSweep::sweep_along(SearchStep step) {
   move_bodies(step, velocity_.data(), velocity_before_.data(), velocity_direction_.data(),
               static_cast<int>(velocity_.size()));
   for_parts([&](const SweepPlan::Part& part, int number) {
-    const auto swept = [&](int begin, int end) {
-      return sweep_records_along(step, records_.data() + begin, impulses_.data() + begin,
-                                 impulses_before_.data() + begin, impulse_direction_.data() + begin,
-                                 end - begin, velocity_.data());
-    };
-    // Contacts with friction and those of one row apart, one after the other.
-    const double friction = swept(part.begin, part.friction_end);
-    part_square_[number] = friction + swept(part.friction_end, part.end);
+    part_square_[number] = sweep_records_along(
+        step, records_.data() + part.begin, impulses_.data() + part.begin,
+        impulses_before_.data() + part.begin, impulse_direction_.data() + part.begin,
+        part.friction_end - part.begin, part.end - part.begin, velocity_.data());
   });
   double square = 0.0;
   for (const double part : part_square_) square += part;
