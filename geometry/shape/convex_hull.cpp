@@ -3,7 +3,6 @@
 #include <libqhull_r/qhull_ra.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -279,8 +278,8 @@ bool flatten(const Loops& loops, std::vector<Vec3>& points) {
     large.push_back(static_cast<int>(f));
   }
   std::vector<Vec3> normal(large.size()), centre(large.size());
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixX3d> shortest;
-  shortest.setThreshold(1e-5);  // planes that are nearly parallel tell nothing across both
+  // Planes that are nearly parallel tell nothing across both: of squared singular values.
+  constexpr double parallel = 1e-10;
   double off = 1.0;
   for (int turn = 0; turn < most_turns && off > 1e-14; ++turn) {
     for (size_t k = 0; k < large.size(); ++k) {
@@ -295,17 +294,21 @@ bool flatten(const Loops& loops, std::vector<Vec3>& points) {
     }
     off = 0.0;
     for (size_t v = 0; v < points.size(); ++v) {
-      const auto count = static_cast<Eigen::Index>(faces_at[v].size());
-      if (count == 0) continue;
-      Eigen::MatrixX3d normals(count, 3);
-      Eigen::VectorXd heights(count);
-      for (Eigen::Index i = 0; i < count; ++i) {
-        const int k = faces_at[v][i];
-        normals.row(i) = normal[k].transpose();
-        heights[i] = normal[k].dot(points[v] - centre[k]);
+      if (faces_at[v].empty()) continue;
+      Mat3 square = Mat3::Zero();
+      Vec3 pull = Vec3::Zero();
+      for (const int k : faces_at[v]) {
+        const double height = normal[k].dot(points[v] - centre[k]);
+        off = std::max(off, std::abs(height));
+        square += normal[k] * normal[k].transpose();
+        pull += height * normal[k];
       }
-      off = std::max(off, heights.cwiseAbs().maxCoeff());
-      points[v] -= shortest.compute(normals).solve(heights);
+      const Eigen::SelfAdjointEigenSolver<Mat3> axes(square);
+      for (int i = 0; i < 3; ++i)
+        if (axes.eigenvalues()[i] > parallel * axes.eigenvalues()[2]) {
+          const Vec3 axis = axes.eigenvectors().col(i);
+          points[v] -= axis * (axis.dot(pull) / axes.eigenvalues()[i]);
+        }
     }
   }
   return off < most_off;
