@@ -21,16 +21,17 @@ Requires-Dist: scipy
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    subprocess.run(["cmake", "--preset", "python", "-DPython3_EXECUTABLE=" + sys.executable],
+    subprocess.run(["cmake", "--preset", "default", "-DBALLAST_PYTHON_MODULE=ON",
+                    "-DPython3_EXECUTABLE=" + sys.executable], cwd=root, check=True)
+    subprocess.run(["cmake", "--build", "--preset", "default", "--target", "ballast_python"],
                    cwd=root, check=True)
-    subprocess.run(["cmake", "--build", "--preset", "python"], cwd=root, check=True)
     cpython = "cp%d%d" % sys.version_info[:2]
     platform = re.sub(r"[-.]", "_", sysconfig.get_platform())
     tag = "-".join([cpython, cpython, platform])
     head = "Wheel-Version: 1.0\nGenerator: ballast\nRoot-Is-Purelib: false\nTag: %s\n" % tag
     notes = "ballast-%s.dist-info/" % version
     files = {notes + "METADATA": about.encode(), notes + "WHEEL": head.encode()}
-    built = root / "build" / "python" / "python" / "ballast"
+    built = root / "build" / "default" / "python" / "ballast"
     for file in sorted(built.iterdir()):
         if file.is_file():
             files["ballast/" + file.name] = file.read_bytes()

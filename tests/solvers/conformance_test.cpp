@@ -34,8 +34,8 @@ TEST_CASE("problems with a known solution are solved, whatever their size and ra
 TEST_CASE("hard problems may not be solved, but no claim is false") {
   for_each_backend([](const SolverEntry& entry) {
     int claims = 0, late = 0;
-    for (const double friction : {0.0, 1.0, 3.0, 10.0})
-      for (const double mass_ratio : {1.0, 1e3, 1e6})
+    for (const double friction : {0.0, 1.0, 10.0})
+      for (const double mass_ratio : {1.0, 1e6})
         for (const int contacts : {2, 40, 60}) {
           CAPTURE(friction, mass_ratio, contacts);
           const std::optional<SolverRun> run = run_unless_large(

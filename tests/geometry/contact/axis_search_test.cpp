@@ -37,7 +37,7 @@ TEST_CASE("the separation is the oracle's, over all placements") {
     Random random(1000 + static_cast<int>(placement));
     double worst = 0.0;
     int overlapping = 0, faces = 0;
-    const int count = 16000;
+    const int count = 4000;
     for (int i = 0; i < count; ++i) {
       const PairCase c = random_case(placement, random);
       AxisFeature hint;
