@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdarg>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -83,15 +82,6 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::write(const void* data, size_t bytes) {
   errno = 0;
   if (std::fwrite(data, 1, bytes, file_) != bytes) throw_file_error(name_, "write");
-}
-
-void AtomicFile::print(const char* format, ...) {
-  std::va_list arguments;
-  va_start(arguments, format);
-  errno = 0;
-  const int written = std::vfprintf(file_, format, arguments);
-  va_end(arguments);
-  if (written < 0) throw_file_error(name_, "write");
 }
 
 int AtomicFile::descriptor() const {

@@ -24,7 +24,6 @@ class AtomicFile {
 
   void write(const void* data, size_t bytes);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  void print(const char* format, ...) __attribute__((format(printf, 2, 3)));
 
   /// For what is not written from its beginning to its end, instead of write(): of the neighbour.
   /// Throws Error where the target itself is written, as a pipe is: there is no going back in it.

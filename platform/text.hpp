@@ -61,25 +61,18 @@ std::optional<Number> parsed(std::string_view text) {
   return value;
 }
 
-/// The one of `words` that `word` was probably meant to be: at most two letters, or a third of
-/// them, are missing, too many or others. Empty where none is that near. `Words`: of texts.
+/// ", did you mean "incline"?" for the one of `words` that `word` was probably meant to be: at most
+/// two letters, or a third of them, are missing, too many or others. Empty where none is that near.
 template <typename Words>
-std::string nearest_word(std::string_view word, const Words& words) {
-  std::string nearest;
+std::string did_you_mean(std::string_view word, const Words& words) {
+  std::string_view nearest;
   size_t least = word.size() / 3 > 2 ? word.size() / 3 + 1 : 3;
   for (const std::string_view candidate : words)
     if (const size_t distance = edit_distance(word, candidate); distance < least) {
       least = distance;
       nearest = candidate;
     }
-  return nearest;
-}
-
-/// ", did you mean "incline"?" for the nearest of `words`; empty where none is near.
-template <typename Words>
-std::string did_you_mean(std::string_view word, const Words& words) {
-  const std::string nearest = nearest_word(word, words);
-  return nearest.empty() ? nearest : ", did you mean \"" + nearest + "\"?";
+  return nearest.empty() ? "" : ", did you mean \"" + std::string(nearest) + "\"?";
 }
 
 /// The number that all of `text` is, blanks around it apart; nothing when it is none. "nan" and

@@ -25,7 +25,7 @@ TEST_CASE("a file has its new content after commit(), and its old one until then
   {
     AtomicFile file(path);
     file.write("new ");
-    file.print("%d %s", 7, "words");
+    file.write("7 words");
     CHECK(read_whole_file(path) == "old");
     file.commit();
     CHECK(read_whole_file(path) == "new 7 words");

@@ -94,11 +94,9 @@ TEST_CASE("a slip of the finger is recognised, another word is not") {
   const std::vector<std::string> words{"run", "solve", "compare", "vibrated_box_small"};
   for (const auto& [word, meant] : {std::pair("rnu", "run"),
                                     {"compere", "compare"},
-                                    {"frobnicate", ""},
                                     {"vibratedboxsmal", "vibrated_box_small"}})
-    CHECK(nearest_word(word, words) == meant);
-  CHECK(nearest_word("x", std::vector<std::string>{}).empty());
-  CHECK(did_you_mean("slove", words) == ", did you mean \"solve\"?");
+    CHECK(did_you_mean(word, words) == ", did you mean \"" + std::string(meant) + "\"?");
+  CHECK(did_you_mean("x", std::vector<std::string>{}).empty());
   CHECK(did_you_mean("frobnicate", words).empty());
 }
 
