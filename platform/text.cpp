@@ -1,12 +1,10 @@
 #include "platform/text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <numeric>
-#include <vector>
 
 namespace ballast {
 

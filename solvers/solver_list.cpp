@@ -1,7 +1,6 @@
 #include "solvers/solver_list.hpp"
 
 #include <iterator>
-#include <string>
 #include <vector>
 
 #include "platform/text.hpp"

@@ -2,7 +2,6 @@
 // The one register of backends. Tests, bench, figures and help enumerate it.
 
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "solvers/seam/solver.hpp"

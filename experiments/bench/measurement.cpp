@@ -1,7 +1,6 @@
 #include "experiments/bench/measurement.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 

@@ -1,7 +1,6 @@
 #include "experiments/commands/command.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <new>
 #include <ostream>

@@ -1,6 +1,5 @@
 // States of a run as files for other programs and as pictures; things in 3D as a page.
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>

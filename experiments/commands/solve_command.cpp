@@ -2,8 +2,6 @@
 // behind the protocol that it offers to others (docs/manual/external.md).
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>

@@ -7,7 +7,6 @@
 #include "experiments/run/run.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
-#include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"

@@ -17,22 +17,22 @@ namespace {
 /// Wavefront OBJ: polygons stay polygons.
 void export_obj(const MechanicalSystem& system, const MotionState& state, const fs::path& path) {
   AtomicFile file(path);
-  file.print("# ballast: %d grains at t = %.17g s, step %ld; world coordinates in m\n",
-             system.grain_count, state.time, state.step);
+  file.write(printed("# ballast: %d grains at t = %.17g s, step %ld; world coordinates in m\n",
+                     system.grain_count, state.time, state.step));
   int first = 1;  // OBJ counts vertices from 1, through the whole file
   for (int b = 0; b < system.grain_count; ++b) {
     const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
     std::string name = system.bodies[b].name;  // blanks would split it
     std::ranges::replace_if(
         name, [](unsigned char c) { return c <= ' '; }, '_');
-    file.print("o %s\n", name.c_str());
+    file.write("o " + name + "\n");
     for (const Vec3& vertex : shape.vertices()) {
       const Vec3 place = state.pose[b] * vertex;
-      file.print("v %.17g %.17g %.17g\n", place.x(), place.y(), place.z());
+      file.write(printed("v %.17g %.17g %.17g\n", place.x(), place.y(), place.z()));
     }
     for (int f = 0; f < shape.face_count(); ++f) {
       file.write("f");
-      for (const int v : shape.face(f)) file.print(" %d", first + v);
+      for (const int v : shape.face(f)) file.write(printed(" %d", first + v));
       file.write("\n");
     }
     first += shape.vertex_count();
@@ -47,8 +47,9 @@ void write_array(AtomicFile& file, const char* name, const std::vector<Number>& 
   Packer packer;
   packer.number(std::uint64_t{values.size() * sizeof(Number)});
   packer.fixed(values);
-  file.print("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">",
-             std::is_same_v<Number, float> ? "Float32" : "Int32", name, components);
+  file.write(
+      printed("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">",
+              std::is_same_v<Number, float> ? "Float32" : "Int32", name, components));
   file.write(base64(packer.bytes()));
   file.write("</DataArray>\n");
 }
@@ -69,25 +70,25 @@ template <class WriteData>
 void write_vtp(const fs::path& path, double time, const std::string& element, const VtpCells& cells,
                WriteData&& write_data) {
   AtomicFile file(path);
-  file.print(
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<PolyData>\n"
-      "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-      "format=\"ascii\">%.17g</DataArray></FieldData>\n",
-      time);
+  file.write(
+      printed("<?xml version=\"1.0\"?>\n"
+              "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+              "header_type=\"UInt64\">\n<PolyData>\n"
+              "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+              "format=\"ascii\">%.17g</DataArray></FieldData>\n",
+              time));
   const size_t count = cells.offsets.size();
-  file.print(
+  file.write(printed(
       "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"0\" "
       "NumberOfStrips=\"0\" NumberOfPolys=\"%zu\">\n",
-      cells.points.size() / 3, element == "Verts" ? count : 0, element == "Polys" ? count : 0);
+      cells.points.size() / 3, element == "Verts" ? count : 0, element == "Polys" ? count : 0));
   write_data(file);
   file.write("<Points>\n");
   write_array(file, "Points", cells.points, 3);
-  file.print("</Points>\n<%s>\n", element.c_str());
+  file.write("</Points>\n<" + element + ">\n");
   write_array(file, "connectivity", cells.connectivity);
   write_array(file, "offsets", cells.offsets);
-  file.print("</%s>\n</Piece>\n</PolyData>\n</VTKFile>\n", element.c_str());
+  file.write("</" + element + ">\n</Piece>\n</PolyData>\n</VTKFile>\n");
   file.commit();
 }
 
@@ -147,8 +148,8 @@ void write_pvd(const fs::path& series, std::span<const MotionState> states) {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
       "byte_order=\"LittleEndian\">\n<Collection>\n");
   for (const MotionState& state : states)
-    file.print("<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s\"/>\n", state.time,
-               series_file(series, state.step).filename().c_str());
+    file.write(printed("<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s\"/>\n", state.time,
+                       series_file(series, state.step).filename().c_str()));
   file.write("</Collection>\n</VTKFile>\n");
   file.commit();
 }

@@ -2,7 +2,6 @@
 // sample by sample. A section is a row of one of the lists of tables below and its words.
 
 #include <algorithm>
-#include <limits>
 
 #include "experiments/paper/sections.hpp"
 

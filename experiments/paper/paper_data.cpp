@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <ranges>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 

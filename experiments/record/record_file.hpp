@@ -21,7 +21,6 @@
 //
 // Every dataset of numbers has the attributes unit and description.
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>

@@ -1,6 +1,5 @@
 #include "experiments/record/recorder.hpp"
 
-#include "experiments/record/record_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "platform/error.hpp"

@@ -5,7 +5,6 @@
 // Consecutive steps are taken together: only so is a warm start what a run would have had.
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 #include "experiments/step/time_step.hpp"

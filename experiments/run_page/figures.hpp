@@ -2,7 +2,6 @@
 // What each figure of a run shows. The data are in the plot; the caption says what is drawn, what
 // the paper shows, what to look for.
 
-#include <string>
 #include <vector>
 
 #include "experiments/measure/run_data.hpp"

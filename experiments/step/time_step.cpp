@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "geometry/contact/contact_detector.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "experiments/box/packing.hpp"
 #include "experiments/record/recorder.hpp"

@@ -1,6 +1,5 @@
 #include "geometry/contact/collision_shape.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>

@@ -7,7 +7,6 @@
 // each of two runs without a common body.
 
 #include <algorithm>
-#include <type_traits>
 
 #include "solvers/gauss_seidel/group_kernels.hpp"
 #include "solvers/gauss_seidel/lanes.hpp"

@@ -6,10 +6,6 @@
 // compiler's own vectors, for SSE2 and any other processor; those of 32 need AVX2, those of 64
 // AVX-512.
 
-#include <cstddef>
-#include <type_traits>
-#include <utility>
-
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif

@@ -1,7 +1,6 @@
 #include "solvers/gauss_seidel/scalar_sweep.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "platform/for_each_cpu.hpp"
 #include "problems/algebra/contact_error.hpp"

@@ -1,7 +1,6 @@
 // What WideSweep makes of a problem before its first sweep: groups, their records, free velocities.
 
 #include <algorithm>
-#include <cmath>
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"

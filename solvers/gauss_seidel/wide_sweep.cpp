@@ -1,6 +1,5 @@
 #include "solvers/gauss_seidel/wide_sweep.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>

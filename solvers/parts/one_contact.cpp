@@ -1,8 +1,5 @@
 #include "solvers/parts/one_contact.hpp"
 
-#include <algorithm>
-#include <limits>
-
 namespace ballast {
 namespace {
 

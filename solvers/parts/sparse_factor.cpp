@@ -1,7 +1,6 @@
 #include "solvers/parts/sparse_factor.hpp"
 
 #include <numeric>
-#include <vector>
 
 #include <cholmod.h>
 #include <Eigen/UmfPackSupport>

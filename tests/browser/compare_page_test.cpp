@@ -1,7 +1,5 @@
 // The page of a comparison in a real browser: what the reader asks, and what the page then holds.
 
-#include <algorithm>
-
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/page/html.hpp"
 #include "experiments/run/run_folder.hpp"

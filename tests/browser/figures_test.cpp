@@ -1,7 +1,5 @@
 // Figures and tables of any page in a real browser.
 
-#include <cmath>
-
 #include "experiments/page/html.hpp"
 #include "experiments/page/plot.hpp"
 #include "platform/atomic_file.hpp"

@@ -6,7 +6,6 @@
 //   [run: through libm] step kinetic_energy load      the table, where its bits come from, the word
 //   17 3fa0 99c1                                      for its rows, its columns; then its rows
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <regex>
-#include <sstream>
 
 #include "tests/catch.hpp"
 #include "tests/house/source_tree.hpp"

@@ -1,7 +1,6 @@
 #include "platform/csv.hpp"
 
 #include <cmath>
-#include <fstream>
 
 #include "platform/random.hpp"
 #include "tests/catch.hpp"

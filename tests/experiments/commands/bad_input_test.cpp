@@ -1,8 +1,6 @@
 // What a user can get wrong, through the program itself: one line that names it, and the exit code
 // that says of which kind it is.
 
-#include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 #include "experiments/commands/command.hpp"

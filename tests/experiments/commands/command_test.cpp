@@ -1,7 +1,6 @@
 // The program around its commands: what it does with a command line, and with every kind of
 // failure.
 
-#include <filesystem>
 #include <iterator>
 #include <new>
 #include <set>

@@ -1,7 +1,5 @@
 // Exports of runs: from the record, whatever has become of the scene's files.
 
-#include <fstream>
-
 #include "geometry/shape/polyhedron.hpp"
 #include "platform/atomic_file.hpp"
 #include "tests/support/mesh_writer.hpp"

@@ -1,7 +1,6 @@
 // Programs as backends of `ballast compare` and `ballast solve`: each thing that a program can do
 // wrong is its row, the others go on, and nothing of it is left running.
 
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <tuple>

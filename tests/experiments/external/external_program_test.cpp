@@ -2,9 +2,7 @@
 
 #include "experiments/external/external_program.hpp"
 
-#include <fstream>
 #include <limits>
-#include <stdexcept>
 
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"

@@ -4,7 +4,6 @@
 #include "experiments/measure/curve_fit.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "platform/random.hpp"
 #include "tests/catch.hpp"

@@ -1,7 +1,5 @@
 #include "experiments/page/html.hpp"
 
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
 #include "platform/deflate.hpp"

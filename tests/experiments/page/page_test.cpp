@@ -1,7 +1,5 @@
 #include "experiments/page/page.hpp"
 
-#include <cmath>
-
 #include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/environment_guard.hpp"

@@ -1,7 +1,6 @@
 #include "experiments/page/text.hpp"
 
 #include <limits>
-#include <stdexcept>
 
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/page/page.hpp"

@@ -1,9 +1,7 @@
 // What a plan's file says, what is wrong with it, and by what its runs are known.
 
-#include <algorithm>
-
-#include "experiments/box/vibrated_box.hpp"
 #include "experiments/plans/plan.hpp"
+#include "experiments/box/vibrated_box.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"

@@ -1,7 +1,5 @@
 #include "experiments/record/progress.hpp"
 
-#include <cmath>
-#include <cstdlib>
 #include <sstream>
 
 #include "tests/catch.hpp"

@@ -4,8 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <iostream>
-
 #include "experiments/run/run.hpp"
 #include "platform/clock.hpp"
 #include "tests/support/same_bits.hpp"

@@ -1,7 +1,6 @@
 #include "geometry/contact/axis_search.hpp"
 
 #include <cmath>
-#include <cstring>
 
 #include "tests/catch.hpp"
 #include "tests/geometry/contact/detection_support.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "geometry/shape/convex_hull.hpp"
 #include "tests/catch.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "geometry/contact/axis_search.hpp"
 #include "tests/catch.hpp"

@@ -1,7 +1,5 @@
 #include "geometry/shape/point_sets.hpp"
 
-#include <algorithm>
-
 #include "geometry/shape/pose.hpp"
 #include "tests/catch.hpp"
 

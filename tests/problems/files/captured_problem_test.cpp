@@ -2,8 +2,6 @@
 
 #include "problems/files/captured_problem.hpp"
 
-#include <cmath>
-
 #include "platform/atomic_file.hpp"
 #include "platform/random.hpp"
 #include "tests/problems/files/problem_file_support.hpp"

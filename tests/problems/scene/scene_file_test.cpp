@@ -1,6 +1,5 @@
 // Scenes: what is read is what the file says, where it is found, and by what it is known.
 
-#include <cstdlib>
 #include <numbers>
 
 #include "geometry/shape/mesh_file.hpp"

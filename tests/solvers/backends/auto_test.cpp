@@ -1,4 +1,3 @@
-#include <utility>
 
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/made_problems.hpp"

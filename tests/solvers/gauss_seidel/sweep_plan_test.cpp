@@ -1,7 +1,6 @@
 #include "solvers/gauss_seidel/sweep_plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>

@@ -2,8 +2,6 @@
 
 #include "solvers/parts/body_matrix.hpp"
 
-#include <limits>
-
 #include "platform/random.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"

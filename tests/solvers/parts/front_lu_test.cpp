@@ -1,7 +1,6 @@
 #include "solvers/parts/front_lu.hpp"
 
 #include <limits>
-#include <numeric>
 
 #include "platform/random.hpp"
 #include "solvers/parts/sparse_factor.hpp"

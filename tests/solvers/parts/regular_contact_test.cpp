@@ -1,6 +1,5 @@
 #include "solvers/parts/regular_contact.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "platform/random.hpp"

@@ -1,7 +1,5 @@
 #include "solvers/parts/shifted_delassus.hpp"
 
-#include <utility>
-
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
 #include "tests/problems/algebra/dense_oracle.hpp"

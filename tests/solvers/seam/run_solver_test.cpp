@@ -1,6 +1,5 @@
 #include "solvers/seam/run_solver.hpp"
 
-#include <cmath>
 #include <functional>
 #include <limits>
 
