@@ -43,7 +43,7 @@ struct WallSpec {
   double offset = 0.0;    ///< [m] at t = 0
   double friction = 0.0;  ///< mu of contacts with this wall
   WallMotion motion = WallMotion::fixed;
-  double mass = 0.0;  ///< driven: [kg]
+  double mass = 0.0;       ///< driven: [kg]
   HarmonicLoad load = {};  ///< driven
   /// prescribed: displacement amplitude (1 - cos 2 pi nu t), from rest [m]; nu [Hz]
   Vec3 amplitude = Vec3::Zero();

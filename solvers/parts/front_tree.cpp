@@ -1,7 +1,7 @@
 #include "solvers/parts/front_tree.hpp"
 
 #include <algorithm>
-#include <ranges>
+#include <numeric>
 
 namespace ballast {
 namespace {
@@ -158,8 +158,7 @@ void share_out(FrontTree& tree) {
 }
 
 /// A stack of boundaries for these fronts, children before parents, behind all stacks before it.
-template <typename Fronts>
-void stack_boundaries(FrontTree& tree, const Fronts& numbers) {
+void stack_boundaries(FrontTree& tree, const std::vector<int>& numbers) {
   const auto size = [&](int f) {
     return static_cast<std::int64_t>(tree.fronts[f].boundary()) * tree.fronts[f].boundary();
   };
@@ -181,8 +180,11 @@ void lay_out(FrontTree& tree) {
     front.numbers_at = tree.numbers;
     tree.numbers += static_cast<std::int64_t>(front.own) * (front.rows + front.boundary());
   }
-  for (const auto& [first, end] : tree.branches)
-    stack_boundaries(tree, std::views::iota(first, end));
+  for (const auto& [first, end] : tree.branches) {
+    std::vector<int> numbers(end - first);
+    std::iota(numbers.begin(), numbers.end(), first);
+    stack_boundaries(tree, numbers);
+  }
   stack_boundaries(tree, tree.trunk);
 }
 

@@ -92,9 +92,8 @@ TEST_CASE("a slip of the finger is recognised, another word is not") {
                                        {"abc", "", 3u}})
     CHECK(edit_distance(a, b) == distance);
   const std::vector<std::string> words{"run", "solve", "compare", "vibrated_box_small"};
-  for (const auto& [word, meant] : {std::pair("rnu", "run"),
-                                    {"compere", "compare"},
-                                    {"vibratedboxsmal", "vibrated_box_small"}})
+  for (const auto& [word, meant] :
+       {std::pair("rnu", "run"), {"compere", "compare"}, {"vibratedboxsmal", "vibrated_box_small"}})
     CHECK(did_you_mean(word, words) == ", did you mean \"" + std::string(meant) + "\"?");
   CHECK(did_you_mean("x", std::vector<std::string>{}).empty());
   CHECK(did_you_mean("frobnicate", words).empty());
