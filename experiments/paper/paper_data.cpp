@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <ranges>
 #include <sstream>
 #include <stdexcept>
 
@@ -218,8 +217,9 @@ std::vector<RunRow> read_runs_csv(const std::filesystem::path& file) {
   CsvReader reader(file);
   if (!reader.next()) reader.fail("empty");
   const std::vector<std::string> names(reader.cells().begin(), reader.cells().end());
-  if (!std::ranges::equal(names | std::views::take(texts), text_columns, {}, {}, &TextColumn::name))
-    reader.fail("not a report's runs.csv: it begins with name,stage,key,record,solver");
+  for (size_t k = 0; k < texts; ++k)
+    if (k >= names.size() || names[k] != text_columns[k].name)
+      reader.fail("not a report's runs.csv: it begins with name,stage,key,record,solver");
   if (!reader.next()) reader.fail("the line of units is missing");
   std::vector<RunRow> rows;
   while (reader.next()) {
