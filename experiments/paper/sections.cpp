@@ -48,7 +48,7 @@ std::string listed(const std::map<std::string, int>& counts) {
   std::string text;
   for (const auto& [name, count] : counts)
     text += (text.empty() ? "" : "; ") + name + " (" + std::to_string(count) + " runs)";
-  return text;
+  return text.empty() ? "none" : text;
 }
 
 /// What the finished runs were made by: programs, machines, steps, wall clock.
