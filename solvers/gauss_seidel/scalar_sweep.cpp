@@ -74,7 +74,7 @@ BALLAST_INLINE void relax(const Record& k, Impulse& r, Velocity* velocity) {
   store8(vb, wb + push(1));
 }
 
-/// The same of a contact without friction: a third of the work.
+/// The same of a contact of one row: a third of the work.
 BALLAST_INLINE void relax_one_row(const Record& k, Impulse& r, Velocity* velocity) {
   double* va = velocity[k.body[0]].w;
   double* vb = velocity[k.body[1]].w;
@@ -87,7 +87,7 @@ BALLAST_INLINE void relax_one_row(const Record& k, Impulse& r, Velocity* velocit
   store8(vb, wb + gb * dy);
 }
 
-/// Contacts with friction come first.
+/// Contacts of three rows, which are those with friction, come before those of one.
 BALLAST_FOR_EACH_CPU
 void sweep_records(const Record* records, Impulse* impulses, int with_friction, int count,
                    Velocity* velocity) {
