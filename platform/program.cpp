@@ -60,7 +60,7 @@ struct MemoryFile : Descriptor {
 };
 
 /// Behind an answer that is whole: a child that dies on the way leaves less.
-constexpr std::string_view whole = "\x1bwhole answer\x1b";
+constexpr std::string_view whole_answer = "\x1bwhole answer\x1b";
 
 bool expendable = false;
 
@@ -70,7 +70,7 @@ void answer_into(int file, const std::function<std::string()>& work) {
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  const std::string answer = work().append(whole);
+  const std::string answer = work().append(whole_answer);
   _exit(write(file, answer.data(), answer.size()) == static_cast<ssize_t>(answer.size()) ? 0 : 1);
 }
 
@@ -83,8 +83,8 @@ ChildResult run_in_child(double max_seconds, const std::function<std::string()>&
   ChildProcess child([&] { answer_into(file.number, work); });
   if (!child.ends_within(max_seconds)) return {ChildEnd::out_of_time, ""};  // and is killed
   std::string answer = file.text();
-  if (!answer.ends_with(whole)) return {ChildEnd::crashed, ""};
-  answer.resize(answer.size() - whole.size());
+  if (!answer.ends_with(whole_answer)) return {ChildEnd::crashed, ""};
+  answer.resize(answer.size() - whole_answer.size());
   return {ChildEnd::complete, std::move(answer)};
 }
 

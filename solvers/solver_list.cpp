@@ -85,8 +85,16 @@ constexpr SolverEntry rows[] = {
      [] { return make_siconos(SiconosMethod::nsn_ac); }, siconos},
 };
 
-/// The rows; without a maker where this build lacks the library.
-const std::vector<SolverEntry>& entries() {
+std::vector<std::string> all_names() {
+  std::vector<std::string> names;
+  for (const SolverEntry& entry : solver_list()) names.emplace_back(entry.name);
+  return names;
+}
+
+}  // namespace
+
+std::span<const SolverEntry> solver_list() {
+  // Without a maker where this build lacks the library.
   static const std::vector<SolverEntry> list = [] {
     std::vector<SolverEntry> found(std::begin(rows), std::end(rows));
     for (SolverEntry& entry : found)
@@ -96,18 +104,8 @@ const std::vector<SolverEntry>& entries() {
   return list;
 }
 
-std::vector<std::string> all_names() {
-  std::vector<std::string> names;
-  for (const SolverEntry& entry : entries()) names.emplace_back(entry.name);
-  return names;
-}
-
-}  // namespace
-
-std::span<const SolverEntry> solver_list() { return entries(); }
-
 const SolverEntry& find_solver(std::string_view name) {
-  for (const SolverEntry& entry : entries())
+  for (const SolverEntry& entry : solver_list())
     if (name == entry.name) return entry;
   const std::vector<std::string> names = all_names();
   throw UnknownSolver("no solver is called '" + std::string(name) + "'" +

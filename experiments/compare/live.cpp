@@ -29,7 +29,7 @@ constexpr SealedKind trajectory_kind{"BALTRAJ3", "trajectory", 1};
 
 /// What a solver made of the start; who it was and to what tolerance is in the file's name.
 template <class Carrier, class Of>
-void carry(Carrier& carrier, Of& trajectory) {
+void carry_trajectory(Carrier& carrier, Of& trajectory) {
   carrier.text(trajectory.ended);
   carrier.list(trajectory.steps, [&](auto& step) {
     for (const StepColumn& column : step_columns()) carrier.number(step.*column.value);
@@ -41,7 +41,7 @@ void carry(Carrier& carrier, Of& trajectory) {
 /// As bytes, for a file or on the way from a child.
 std::string packed(const Trajectory& trajectory) {
   Packer packer;
-  carry(packer, trajectory);
+  carry_trajectory(packer, trajectory);
   return packer.bytes();
 }
 
@@ -49,7 +49,7 @@ std::string packed(const Trajectory& trajectory) {
 /// `origin`.
 void unpack(const std::string& bytes, const std::string& origin, Trajectory& trajectory) {
   Unpacker unpacker(bytes, origin);
-  carry(unpacker, trajectory);
+  carry_trajectory(unpacker, trajectory);
   unpacker.finish();
   unpacker.require(trajectory.positions.size() == trajectory.frame_times.size());
 }

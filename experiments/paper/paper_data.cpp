@@ -27,7 +27,7 @@ namespace {
 
 using Run = const RunSummary&;
 
-const RunColumn columns[] = {
+const RunColumn all_columns[] = {
     // what was set
     {"seed", "1", "of the grains: the sample", [](Run r) { return 1.0 * r.facts.seed; }},
     {"frequency", "Hz", "nu", [](Run r) { return r.facts.frequency; }},
@@ -110,10 +110,10 @@ constexpr size_t texts = std::size(text_columns);
 
 /// Where a column stands among the numbers. Throws std::invalid_argument naming it.
 size_t place_of(std::string_view column) {
-  const auto* found = std::ranges::find(columns, column, &RunColumn::name);
-  if (found == std::end(columns))
+  const auto* found = std::ranges::find(all_columns, column, &RunColumn::name);
+  if (found == std::end(all_columns))
     throw std::invalid_argument("no column of runs is called " + std::string(column));
-  return static_cast<size_t>(found - columns);
+  return static_cast<size_t>(found - all_columns);
 }
 
 /// Measured values of what was set, from records and from files of nine digits, are the same.
@@ -169,12 +169,12 @@ std::string stage_of(const PlannedRun& run) {
   return run.name.substr(0, run.name.find_first_of("-."));
 }
 
-std::span<const RunColumn> run_columns() { return columns; }
+std::span<const RunColumn> run_columns() { return all_columns; }
 
-RunRow::RunRow() : numbers(std::size(columns), not_known) {}
+RunRow::RunRow() : numbers(std::size(all_columns), not_known) {}
 
 RunRow::RunRow(const RunSummary& run) : solver(run.facts.solver) {
-  for (const RunColumn& column : columns) numbers.push_back(column.value(run));
+  for (const RunColumn& column : all_columns) numbers.push_back(column.value(run));
 }
 
 double RunRow::operator[](RunMeasure measure) const {
@@ -188,17 +188,17 @@ double RunRow::operator[](RunMeasure measure) const {
 double& RunRow::operator[](std::string_view column) { return numbers[place_of(column)]; }
 
 std::string unit_behind(RunMeasure measure) {
-  const std::string unit = columns[place_of(measure)].unit;
+  const std::string unit = all_columns[place_of(measure)].unit;
   return unit == "1" ? "" : ' ' + unit;
 }
 
 std::string runs_csv(std::span<const RunRow> rows) {
   CsvWriter csv;
   for (const TextColumn& column : text_columns) csv.add(column.name);
-  for (const RunColumn& column : columns) csv.add(column.name);
+  for (const RunColumn& column : all_columns) csv.add(column.name);
   csv.end_row();
   for (size_t k = 0; k < texts; ++k) csv.add("text");
-  for (const RunColumn& column : columns) csv.add(column.unit);
+  for (const RunColumn& column : all_columns) csv.add(column.unit);
   csv.end_row();
   for (const RunRow& row : rows) {
     for (const TextColumn& column : text_columns) csv.add(row.*column.text);
@@ -227,7 +227,7 @@ std::vector<RunRow> read_runs_csv(const std::filesystem::path& file) {
     const auto cells = reader.cells();
     RunRow& row = rows.emplace_back();
     for (size_t k = 0; k < texts; ++k) row.*text_columns[k].text = cells[k];
-    for (const RunColumn& column : columns)
+    for (const RunColumn& column : all_columns)
       if (const auto k = static_cast<size_t>(std::ranges::find(names, column.name) - names.begin());
           k < names.size() && !cells[k].empty())
         row[column.name] = reader.number(k, column.name);
@@ -238,7 +238,7 @@ std::vector<RunRow> read_runs_csv(const std::filesystem::path& file) {
 std::string run_columns_csv() {
   CsvWriter csv;
   csv.add_row(std::vector<std::string>{"column", "unit", "description"});
-  for (const RunColumn& column : columns)
+  for (const RunColumn& column : all_columns)
     csv.add_row(std::vector<std::string>{column.name, column.unit, column.meaning});
   return csv.take();
 }

@@ -18,9 +18,9 @@ namespace ballast {
 namespace {
 
 /// The file's words, one after the other, with the line for error messages.
-class Words {
+class WordReader {
  public:
-  explicit Words(const std::filesystem::path& file)
+  explicit WordReader(const std::filesystem::path& file)
       : name_(file.string()), text_(read_whole_file(file)) {}
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -116,7 +116,7 @@ struct TextMatrix {
   int rows = 0, columns = 0;
   std::vector<Eigen::Triplet<double>> entries;
 
-  void add(const Words& words, int row, int column, double value) {
+  void add(const WordReader& words, int row, int column, double value) {
     if (row < 0 || row >= rows || column < 0 || column >= columns)
       words.fail(printed("entry (%d, %d) is outside %d x %d", row, column, rows, columns));
     if (value != 0.0) entries.emplace_back(row, column, value);
@@ -124,7 +124,7 @@ struct TextMatrix {
 };
 
 /// Column-major.
-void read_dense(Words& words, TextMatrix& matrix) {
+void read_dense(WordReader& words, TextMatrix& matrix) {
   const int rows = words.count("rows"), columns = words.count("columns");
   words.require(rows == matrix.rows && columns == matrix.columns,
                 "the matrix states two different sizes");
@@ -135,7 +135,7 @@ void read_dense(Words& words, TextMatrix& matrix) {
 }
 
 /// Where each of `blocks` block rows (or columns) ends: they ascend to `size`, and none is empty.
-std::vector<int> read_ends(Words& words, int blocks, int size, const char* of) {
+std::vector<int> read_ends(WordReader& words, int blocks, int size, const char* of) {
   const std::vector<int> end = words.list<int>(blocks, of);
   const bool ascend = std::adjacent_find(end.begin(), end.end(), std::greater_equal()) == end.end();
   words.require(blocks > 0 && ascend && end.front() > 0 && end.back() == size,
@@ -145,7 +145,7 @@ std::vector<int> read_ends(Words& words, int blocks, int size, const char* of) {
 
 /// Block rows: cumulative block sizes, row pointers, block columns, then each block column-major
 /// after its number.
-void read_blocks(Words& words, TextMatrix& matrix) {
+void read_blocks(WordReader& words, TextMatrix& matrix) {
   const int blocks = words.count("the number of blocks");
   const int block_rows = words.count("block rows"), block_columns = words.count("block columns");
   const std::vector<int> row_end = read_ends(words, block_rows, matrix.rows, "ends of block rows");
@@ -169,7 +169,7 @@ void read_blocks(Words& words, TextMatrix& matrix) {
 }
 
 /// CSparse's printed form; six digits only. `words` stands after the storage number.
-void read_sparse(Words& words, TextMatrix& matrix) {
+void read_sparse(WordReader& words, TextMatrix& matrix) {
   enum Origin { triplet = 1, columns = 2, rows = 3 };
   constexpr const char* of = "a sparse matrix";
   const int origin = words.integer("the origin of a sparse matrix");
@@ -205,7 +205,7 @@ void read_sparse(Words& words, TextMatrix& matrix) {
   }
 }
 
-TextMatrix read_matrix(Words& words) {
+TextMatrix read_matrix(WordReader& words) {
   const int storage = words.integer("the storage of a matrix");
   words.require(storage >= 0 && storage <= 2,
                 "storage " + std::to_string(storage) + " is none of 0 dense, 1 blocks, 2 sparse");
@@ -213,7 +213,7 @@ TextMatrix read_matrix(Words& words) {
   // Every row and column has an entry in a vector that follows.
   matrix.rows = words.backed_count("rows");
   matrix.columns = words.backed_count("columns");
-  constexpr void (*read[])(Words&, TextMatrix&) = {read_dense, read_blocks, read_sparse};
+  constexpr void (*read[])(WordReader&, TextMatrix&) = {read_dense, read_blocks, read_sparse};
   read[storage](words, matrix);
   return matrix;
 }
@@ -228,7 +228,7 @@ Sparse sparse(const TextMatrix& matrix) {
 }  // namespace
 
 FrictionProblem read_siconos_text(const std::filesystem::path& file) {
-  Words words(file);
+  WordReader words(file);
   const int dimension = words.integer("the dimension");
   words.require(dimension == 3, "dimension " + std::to_string(dimension) + ": only 3 is supported");
   const int contacts = words.backed_count("the number of contacts");

@@ -31,8 +31,7 @@ class Admm final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
-    const double first = w_.begin_at(r, u_);
-    iteration.evaluated(first, r);
+    iteration.evaluated(w_.begin_at(r, u_), r);
     shift_.reset(w_);
     shift_.follow(w_, u_);
     for (int c = 0; c < w_.contact_count(); ++c) w_.put(y_, c, -shift_.shifted(w_, u_, c));
@@ -100,11 +99,7 @@ class Admm final : public Solver {
   }
 
   void shift_multiplier(double sign) {
-    for (int c = 0; c < w_.contact_count(); ++c) {
-      Eigen::Vector3d y = w_.at(y_, c);
-      y[0] += sign * shift_[c];
-      w_.put(y_, c, y);
-    }
+    for (int c = 0; c < w_.contact_count(); ++c) y_[w_.problem().row_begin[c]] += sign * shift_[c];
   }
 
   /// Balances the two residuals, both velocities: what x and r differ, what r has moved (Boyd et

@@ -23,8 +23,7 @@ class Apgd final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.02});
-    const double first = w_.begin_at(r, u_);
-    iteration.evaluated(first, r);
+    iteration.evaluated(w_.begin_at(r, u_), r);
     shift_.reset(w_);
     shift_.follow(w_, u_);
     step_ = first_step_;

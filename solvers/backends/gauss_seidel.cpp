@@ -279,21 +279,17 @@ class SweepPace {
  public:
   /// Takes the error after so many sweeps; how many more until `aim`, by the later half of them.
   double left(int sweeps, double error, double aim) {
-    looks_.push_back({sweeps, error});
+    looks_.push_back({sweeps, 0.0, error});
     size_t k = looks_.size() - 1;
-    while (k > 0 && 2 * looks_[k].sweeps > sweeps) --k;
-    const Look& before = looks_[k];
-    if (!(before.sweeps > 0 && before.error > error)) return 1e300;
-    const double exponent = std::log(before.error / error) / std::log(1.0 * sweeps / before.sweeps);
+    while (k > 0 && 2 * looks_[k].iteration > sweeps) --k;
+    const auto& [then, seconds, before] = looks_[k];
+    if (!(then > 0 && before > error)) return 1e300;
+    const double exponent = std::log(before / error) / std::log(1.0 * sweeps / then);
     return sweeps * (std::pow(error / aim, 1.0 / exponent) - 1.0);
   }
 
  private:
-  struct Look {
-    int sweeps;
-    double error;
-  };
-  std::vector<Look> looks_;
+  std::vector<HistoryPoint> looks_;
 };
 
 }  // namespace

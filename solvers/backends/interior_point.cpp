@@ -54,15 +54,14 @@ class InteriorPoint final : public Solver {
   /// `near`, or they stall.
   void approach(Course& course, double near) {
     Impulses r = course.best();
-    const double first = w_.begin_at(r, u_);
-    course.offer(r, first);
+    double halved = w_.begin_at(r, u_);
+    course.offer(r, halved);
     shift_.reset(w_);
     shift_.follow(w_, u_);
     point_.r = r;
     push_inside();
     before_ = point_;
     rounded_u_ = u_;
-    double halved = first;
     int steps = 0, stalled_steps = 0;  // with this s; without the best error halved
     while (!course.over() && stalled_steps < patience &&
            course.error() > near * (1.0 - Iteration::margin)) {

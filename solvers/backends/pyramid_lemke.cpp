@@ -7,6 +7,7 @@
 
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/backends/backends.hpp"
+#include "solvers/parts/dense_kernels.hpp"
 #include "solvers/seam/iteration.hpp"
 #include "solvers/seam/rounds.hpp"
 
@@ -114,7 +115,7 @@ Eigen::VectorXd Lemke::solution() const {
   if (active.empty()) return z;
   const Eigen::MatrixXd block = (*m_)(active, active);
   const Eigen::VectorXd right = -q_(active);
-  const Eigen::VectorXd x = block.partialPivLu().solve(right);
+  const Eigen::VectorXd x = pivoted_solution(block, right);
   // A basis that only rounding keeps regular: then the tableau's own values.
   const bool close = x.allFinite() && (block * x - right).lpNorm<Eigen::Infinity>() <=
                                           1e-9 * (1.0 + right.lpNorm<Eigen::Infinity>());

@@ -1,5 +1,6 @@
 #include "solvers/parts/dense_kernels.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cstdint>
 
@@ -175,6 +176,10 @@ std::vector<DenseKernels> dense_kernels() {
 #endif
   sets.push_back({"any", product_any, solve_any});
   return sets;
+}
+
+Eigen::VectorXd pivoted_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return a.partialPivLu().solve(b);
 }
 
 void subtract_product(int m, int n, int k, const double* a, int stride_a, const double* b,

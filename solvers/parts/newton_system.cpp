@@ -1,5 +1,7 @@
 #include "solvers/parts/newton_system.hpp"
 
+#include "solvers/parts/dense_kernels.hpp"
+
 namespace ballast {
 namespace {
 
@@ -60,7 +62,7 @@ bool NewtonSystem::solve_dense(const FrictionProblem& problem,
           matrix.col(place_[w.col()]).segment(at, rows) += by_u.col(i) * w.value();
     matrix.block(at, at, rows, rows) += b_[c].topLeftCorner(rows, rows);
   }
-  const Eigen::VectorXd solution = matrix.partialPivLu().solve(right);
+  const Eigen::VectorXd solution = pivoted_solution(matrix, right);
   if (!solution.allFinite()) return false;
   for (int row = 0; row < problem.row_count(); ++row)
     if (place_[row] >= 0) dr[row] = solution[place_[row]];

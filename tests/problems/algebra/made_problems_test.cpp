@@ -21,8 +21,7 @@ constexpr double gh = made_gravity_step;
 /// 1 - rank(W)/rows, by eigenvalues.
 double rank_deficiency(const FrictionProblem& problem) {
   const Eigen::MatrixXd w = Eigen::MatrixXd(delassus_matrix(problem));
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(w, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values = oracle::eigenvalues(w);
   const double rank = static_cast<double>((values.array() > 1e-10 * values.maxCoeff()).count());
   return 1.0 - rank / problem.row_count();
 }
@@ -31,7 +30,7 @@ double rank_deficiency(const FrictionProblem& problem) {
 double unreachable(const FrictionProblem& problem, const Eigen::VectorXd& v) {
   const Eigen::MatrixXd pull = oracle::dense_h(problem).transpose();
   const Eigen::VectorXd wanted = oracle::dense_mass(problem) * (v - problem.dynamics.v_free);
-  const Eigen::VectorXd r = pull.completeOrthogonalDecomposition().solve(wanted);
+  const Eigen::VectorXd r = pull.colPivHouseholderQr().solve(wanted);
   return (pull * r - wanted).norm();
 }
 

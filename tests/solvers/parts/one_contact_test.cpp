@@ -14,7 +14,10 @@ namespace {
 Matrix3d random_w(double condition, double scale, Random& random) {
   Matrix3d a;
   for (double& x : a.reshaped()) x = random.uniform(-1, 1);
-  const Matrix3d axes = Eigen::HouseholderQR<Matrix3d>(a).householderQ();
+  Matrix3d axes;
+  axes.col(0) = a.col(0).normalized();
+  axes.col(1) = axes.col(0).cross(a.col(1)).normalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
   const Vector3d values(1.0, random.log_uniform(1.0 / condition, 1.0), 1.0 / condition);
   const Matrix3d w = scale * axes * values.asDiagonal() * axes.transpose();
   return 0.5 * (w + w.transpose());

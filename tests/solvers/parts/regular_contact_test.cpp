@@ -17,7 +17,7 @@ Vector3d random_vector(Random& random) {
 }
 
 constexpr double epsilon = 1e-2;
-const UnitMassContacts::Contact contact{.half_line = false, .friction = 0.5, .lambda_max = 2.0};
+const UnitMassContacts::Contact contact{{}, false, /*friction=*/0.5, /*lambda_max=*/2.0, {}, {}};
 
 }  // namespace
 
