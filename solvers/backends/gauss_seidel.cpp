@@ -149,9 +149,9 @@ class SweptChange {
  public:
   explicit SweptChange(double aim) : aim_(aim) {}
 
-  /// After a look at the error [m/s].
+  /// After a look at the error [m/s]; `square` of the sweep before it, or of the first of all.
   void seen(int sweeps, double square, double error) {
-    next_ = sweeps + apart;
+    next_ = sweeps + (sweeps > 0 ? apart : 2);
     enough_ = square * (near * aim_ / error) * (near * aim_ / error);
   }
   /// The error is likely to be small enough.
@@ -206,9 +206,12 @@ class GaussSeidel final : public Solver {
       least = error;
       best.swap(r);  // the next look fills r anew
     };
-    looked(sweep_->error());
+    const double first = sweep_->error();
+    looked(first);
     while (iteration.next()) {
       square = sweep(square);
+      // A stored W is mostly small: the first sweep tells already when to look.
+      if (iteration.count() == 1 && !problem.has_dynamics) change.seen(0, square, first);
       if (!iteration.error_due() && !(rule_ && change.promises(iteration.count(), square)))
         continue;
       const double error = swept_error(problem, iteration, r);
