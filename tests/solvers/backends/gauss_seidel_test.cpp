@@ -131,3 +131,12 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("nesterov_pgs: a stored W that a few sweeps answer is looked at after a few") {
+  const FrictionProblem problem = make_pile({.contacts = 10, .is_stored = true, .seed = 2});
+  const Budget budget{.tolerance = 1e-4 * velocity_scale(problem), .keep_history = true};
+  const Solved solved = from_rest(*make_nesterov_pgs(), problem, budget);
+  CHECK(solved.reason == StopReason::reached_tolerance);
+  CHECK(solved.iterations < 8);       // the first look by schedule
+  CHECK(solved.history.size() <= 3);  // from rest, and no more than one look too early
+}
