@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # clang-tidy with the checks of .clang-tidy. Headers cost most of its time, so the sources are read
-# room by room in four large batches. Tests are left out: clang 14 does not take all the C++20 that they use.
+# in four large batches. Tests are left out: clang 14 does not take all the C++20 that they use.
 #
 #   scripts/check_tidy.sh [words of file names]: only batches of a room that holds one of the words
 set -euo pipefail
@@ -13,20 +13,24 @@ rooms='(platform|geometry|problems|solvers|experiments)'
 words=$(IFS='|'; echo "${*:-.}")
 commands=build/tidy/compile_commands.json
 flags=$(grep -o -E -e '-(I|D|isystem )[^" ]+' -e '-std=[^" ]+' "$commands" | sort -u)
-
-rm -f build/tidy/part_*.cpp
-place=0
-alone=()
-while read -r source; do
-  case $source in
-    *build/tidy/experiments/*) part=experiments_$((place++ % 2)) ;;
-    *build/tidy/solvers/*) part=solvers ;;
-    *build/tidy/*) part=lower_rooms ;;
-    *) alone+=("$source"); continue ;;  # compiled with flags of its own
-  esac
-  echo "#include \"$source\"" >>"build/tidy/part_$part.cpp"
-done < <(grep -o '"file": "[^"]*"' "$commands" | cut -d'"' -f4 | grep -E "$words" | sort |
+sources=$(grep -o '"file": "[^"]*"' "$commands" | cut -d'"' -f4 | grep -E "$words" | sort |
   grep -v -e /precompiled/ -e '/build/tidy/[^U]*$' -e /tests/)
+
+# batches: writes the batches, and prints them and what is compiled with flags of its own
+batches() {
+  local place=0 source part
+  rm -f build/tidy/part_*.cpp
+  while read -r source; do
+    case $source in
+      *build/tidy/experiments/*) part=experiments_$((place++ % 2)) ;;
+      *build/tidy/solvers/*) part=solvers ;;
+      *build/tidy/*) part=lower_rooms ;;
+      *) echo "$source"; continue ;;
+    esac
+    echo "#include \"$source\"" >>"build/tidy/part_$part.cpp"
+  done <<<"$sources"
+  find build/tidy -maxdepth 1 -name 'part_*.cpp'
+}
 
 # check_one SOURCE: with the common flags, or with those of its own command
 check_one() {
@@ -37,5 +41,5 @@ check_one() {
 }
 export -f check_one
 export root rooms flags
-find build/tidy -maxdepth 1 -name 'part_*.cpp' -print0 | cat - <(printf '%s\0' "${alone[@]}") |
-  xargs -0 -P "$(nproc)" -I{} bash -c 'check_one {}' 2>build/tidy/clang-tidy.err
+batches | xargs -P "$(nproc)" -I{} bash -c 'check_one "$1"' check_one {} \
+  2>build/tidy/clang-tidy.err

@@ -210,7 +210,7 @@ class GaussSeidel final : public Solver {
     looked(first);
     while (iteration.next()) {
       square = sweep(square);
-      // A stored W is mostly small: the first sweep tells already when to look.
+      // Not with bodies: their solves would stop elsewhere, and stored runs have other bits.
       if (iteration.count() == 1 && !problem.has_dynamics) change.seen(0, square, first);
       if (!iteration.error_due() && !(rule_ && change.promises(iteration.count(), square)))
         continue;
@@ -282,17 +282,17 @@ class SweepPace {
  public:
   /// Takes the error after so many sweeps; how many more until `aim`, by the later half of them.
   double left(int sweeps, double error, double aim) {
-    looks_.push_back({sweeps, 0.0, error});
+    looks_.emplace_back(sweeps, error);
     size_t k = looks_.size() - 1;
-    while (k > 0 && 2 * looks_[k].iteration > sweeps) --k;
-    const auto& [then, seconds, before] = looks_[k];
+    while (k > 0 && 2 * looks_[k].first > sweeps) --k;
+    const auto& [then, before] = looks_[k];
     if (!(then > 0 && before > error)) return 1e300;
     const double exponent = std::log(before / error) / std::log(1.0 * sweeps / then);
     return sweeps * (std::pow(error / aim, 1.0 / exponent) - 1.0);
   }
 
  private:
-  std::vector<HistoryPoint> looks_;
+  std::vector<std::pair<int, double>> looks_;  ///< sweeps, error
 };
 
 }  // namespace

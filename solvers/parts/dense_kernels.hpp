@@ -22,7 +22,7 @@ void solve_unit_lower(int m, int n, const double* l, int stride_l, double* b, in
 /// and above the diagonal, the unit lower L below it. Pivots are not looked at.
 void factor_columns(double* a, int stride, int rows, int columns);
 
-/// x with A x = b by an LU that exchanges rows. NaN or infinity where A is singular.
+/// x with A x = b, by Eigen's LU with exchanged rows. NaN or infinity where A is singular.
 Eigen::VectorXd pivoted_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 /// The inner loops for one instruction set. All give the same bits.
