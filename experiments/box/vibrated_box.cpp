@@ -162,7 +162,7 @@ std::string packing_key(const Scene& scene) {
   std::ostringstream text;
   text.precision(17);
   const GrainsSpec& g = *scene.grains;
-  text << "packing 6;" << g.count << ' ' << g.seed << ' ' << g.density << ' '
+  text << "packing 7;" << g.count << ' ' << g.seed << ' ' << g.density << ' '
        << static_cast<int>(g.size_convention);
   for (const SizeClass& size : g.distribution) text << ' ' << size.size << ' ' << size.fraction;
   text << ';' << g.shape.min_vertices << ' ' << g.shape.max_vertices << ' '

@@ -7,11 +7,8 @@
 namespace ballast {
 namespace {
 
-/// Sweeps that cost as much as a Newton step. Measured over bodies with some thousand contacts.
-constexpr double body_step = 500.0;
-
-/// The same of a stored W: in multiplications, of a sweep its entries and each contact's own
-/// solution; of a step the linearisation and a factorisation, dense where rows are few or W is
+/// sweeps_of_step() of a stored W: in multiplications, of a sweep its entries and each contact's
+/// own solution; of a step the linearisation and a factorisation, dense where rows are few or W is
 /// nearly full, else mostly bookkeeping, row by row, and fill.
 double stored_step(const FrictionProblem& problem) {
   const double contacts = problem.contact_count(), rows = problem.row_count();
@@ -25,9 +22,9 @@ double stored_step(const FrictionProblem& problem) {
 
 class Auto final : public Solver {
  public:
-  void prepare(const FrictionProblem& problem) override {
+  /// Every way when its turn comes: a problem may need none, and ordering is dear.
+  void prepare(const FrictionProblem&) override {
     for (Way* way : {&sweeps_, &burst_, &proximal_, &interior_}) way->is_prepared = false;
-    prepared(sweeps_, problem);  // the others when their turn comes: ordering is dear
   }
 
   void use_team(WorkerTeam* team) override {
@@ -36,10 +33,14 @@ class Auto final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     const bool is_scarce = budget.max_iterations <= few_iterations;
-    const double step = is_scarce ? 1.0 : problem.has_dynamics ? body_step : stored_step(problem);
+    const double step = is_scarce              ? 1.0
+                        : problem.has_dynamics ? sweeps_of_step(problem.contact_count())
+                                               : stored_step(problem);
     Way& newton = problem.has_dynamics && !is_scarce ? burst_ : proximal_;
 
     Course course(budget, std::move(start));
+    if (course.best().isZero(0.0) && nothing_presses(problem)) course.offer(course.best(), 0.0);
+    if (course.over()) return course.finish();
     course.run([&](Impulses first, Budget whole) {
       whole.gives_up = slow_sweeps(least_sweeps(step, budget), enough_steps * step, budget);
       return prepared(sweeps_, problem).solve(problem, std::move(first), whole);
@@ -60,6 +61,19 @@ class Auto final : public Solver {
     std::unique_ptr<Solver> solver;
     bool is_prepared = false;
   };
+
+  /// No contact closes without impulses, which are then a solution.
+  bool nothing_presses(const FrictionProblem& problem) {
+    const DynamicsForm& d = problem.dynamics;
+    free_.resize(problem.has_dynamics ? problem.row_count() : 0);
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      if (problem.has_dynamics)
+        body_to_contact_velocity(d, problem.row_begin, d.v_free, c, c + 1, free_);
+      const int normal = problem.row_begin[c];
+      if (!((problem.has_dynamics ? free_ : problem.delassus.q)[normal] >= 0.0)) return false;
+    }
+    return true;
+  }
 
   static Solver& prepared(Way& way, const FrictionProblem& problem) {
     if (!way.is_prepared) way.solver->prepare(problem);
@@ -83,6 +97,7 @@ class Auto final : public Solver {
   /// Of so few a sweep is as dear as a factorisation.
   static constexpr int few_iterations = 1000;
 
+  Eigen::VectorXd free_;  ///< contact velocities without impulses
   Way sweeps_{make_nesterov_pgs(/*returns_best=*/false)};
   Way burst_{make_newton_burst(/*begins_with_sweeps=*/false)};
   Way proximal_{make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4})};

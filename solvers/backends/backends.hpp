@@ -43,6 +43,10 @@ std::unique_ptr<Solver> make_nncg();
 /// rest of the way to budget.aim() takes more than `most` others. `budget` outlives it.
 std::function<bool(int, double)> slow_sweeps(int least, double most, const Budget& budget);
 
+/// Sweeps over bodies that cost as much as a step of Newton's method. Measured on packings of 80 to
+/// 8000 contacts.
+double sweeps_of_step(int contacts);
+
 /// Accelerated projected gradient descent with adaptive restart. Mazhar, Heyn, Negrut, Tasora 2015,
 /// "Using Nesterov's method to accelerate multibody dynamics with friction and contact"; restart
 /// after O'Donoghue, Candes 2015. Departures: diagonal scaling by 1 / lambda_max(W_cc); the

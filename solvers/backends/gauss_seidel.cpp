@@ -26,6 +26,8 @@ class SearchRule {
   virtual SearchStep next(double square) = 0;
   /// Told at each look [m/s]. True: the search ends, and begins at the iterate.
   virtual bool see(double error) = 0;
+  /// It is time for a look.
+  virtual bool asks() const { return false; }
 };
 
 // With r^_k the iterate that sweep k left, and d_k what it changed:
@@ -68,11 +70,14 @@ class Momentum final : public SearchRule {
   /// in next().
   bool see(double error) override {
     best_ = std::min(best_, error);
-    if (resting_ > 0 || total_ < std::max(first_mark, 5 * mark_ / 4)) return false;
+    if (!asks()) return false;
     if (best_ > 0.9 * best_at_mark_) resting_ = ++losses_ * total_ / 4;
     mark_ = total_;
     best_at_mark_ = best_;
     return false;
+  }
+  bool asks() const override {
+    return resting_ == 0 && total_ >= std::max(first_mark, 5 * mark_ / 4);
   }
 
  private:
@@ -185,7 +190,7 @@ class GaussSeidel final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     // The cost of looking at the error stays below about 15 %.
-    Iteration iteration(budget, rule_ ? CheckSchedule{8, 1.3, 1.5} : CheckSchedule{4, 1.25});
+    Iteration iteration(budget, rule_ ? CheckSchedule{8, 1.6, 2.0} : CheckSchedule{4, 1.25});
     SweptChange change(budget.aim());
     if (rule_) rule_->reset();
     order_.resize(variant_.plain() ? 0 : problem.contact_count());
@@ -194,14 +199,15 @@ class GaussSeidel final : public Solver {
     // between two looks of ours.
     sweep_->allow_single(budget.max_iterations >= single_pays_from && !budget.fclib);
     load(problem, r);
-    sweep_->store(problem, r);  // impulses that move nothing have been dropped
-    Impulses best(returns_best_ ? problem.row_count() : 0);  // of all looks
-    bool is_best = false;
+    Impulses best(returns_best_ ? problem.row_count() : 0);  // of all looks that could be stored
+    bool is_best = false, is_stored = false;
     double least = std::numeric_limits<double>::infinity(), square = 0.0;
     const auto looked = [&](double error) {
+      is_best = returns_best_ && error < least && sweep_->is_storable();
+      is_stored = is_best || budget.fclib;
+      if (is_stored) sweep_->store(problem, r);
       iteration.evaluated(error, r);
       if (rule_ && rule_->see(error)) begin_search();
-      is_best = returns_best_ && error < least;
       if (!is_best) return;
       least = error;
       best.swap(r);  // the next look fills r anew
@@ -210,14 +216,15 @@ class GaussSeidel final : public Solver {
     looked(first);
     while (iteration.next()) {
       square = sweep(square);
-      // Not with bodies: their solves would stop elsewhere, and stored runs have other bits.
-      if (iteration.count() == 1 && !problem.has_dynamics) change.seen(0, square, first);
-      if (!iteration.error_due() && !(rule_ && change.promises(iteration.count(), square)))
-        continue;
-      const double error = swept_error(problem, iteration, r);
-      looked(error);
+      if (iteration.count() == 1) change.seen(0, square, first);
+      const bool is_asked = rule_ && (change.promises(iteration.count(), square) || rule_->asks());
+      if (!iteration.error_due() && !is_asked) continue;
+      const double error = sweep_->rough_error();
+      looked(iteration.ends_with(error) ? last_error(problem, iteration, r) : error);
+      if (iteration.is_over() && !sweep_->is_storable()) looked(last_error(problem, iteration, r));
       change.seen(iteration.count(), square, error);
     }
+    if (!is_stored) sweep_->store(problem, r);  // what moves nothing is dropped
     Solved solved = iteration.finish(std::move(is_best ? best : r));
     if (returns_best_ && !is_best && solved.reason != StopReason::reached_tolerance)
       go_back(problem, best, solved);
@@ -243,16 +250,15 @@ class GaussSeidel final : public Solver {
     return 0.0;
   }
 
-  /// Stores the iterate in `r` and returns its error [m/s]. An error small enough to stop is
-  /// evaluated once more from the impulses alone, as the judge will: thousands of updates have left
-  /// their rounding in the velocities. Where sweeps were in single precision, the last iterate is
-  /// swept once more in double: what is returned obeys each contact's law to the rounding of
-  /// double.
-  double swept_error(const FrictionProblem& problem, const Iteration& iteration, Impulses& r) {
-    double error = sweep_->error();
-    if (iteration.ends_with(error) && sweep_->finish_in_double()) error = sweep_->error();
+  /// The error [m/s] of an iterate that may be returned. Where sweeps were in single precision, it
+  /// is swept once more in double: what is returned obeys each contact's law to the rounding of
+  /// double. Else an error small enough to stop is evaluated once more from the impulses alone, as
+  /// the judge will: thousands of updates have left their rounding in the velocities.
+  double last_error(const FrictionProblem& problem, const Iteration& iteration, Impulses& r) {
+    const bool is_fresh = sweep_->finish_in_double();
+    const double error = sweep_->error();
+    if (is_fresh || !iteration.reached(error)) return error;
     sweep_->store(problem, r);
-    if (!iteration.reached(error)) return error;
     load(problem, r);
     return sweep_->error();
   }
@@ -308,6 +314,8 @@ std::unique_ptr<Solver> make_nesterov_pgs(bool returns_best) {
 std::unique_ptr<Solver> make_nncg() {
   return std::make_unique<GaussSeidel>(std::make_unique<FletcherReeves>(), /*returns_best=*/false);
 }
+
+double sweeps_of_step(int contacts) { return 1.3 * std::sqrt(contacts * std::sqrt(contacts)); }
 
 std::function<bool(int, double)> slow_sweeps(int least, double most, const Budget& budget) {
   return [=, pace = SweepPace(), refusals = 0, &budget](int sweeps, double error) mutable {

@@ -162,7 +162,9 @@ class NewtonBurst final : public Solver {
     Course course(budget, std::move(start));
     if (begins_with_sweeps_) {
       course.run([&](Impulses first, Budget whole) {
-        whole.gives_up = slow_sweeps(first_sweeps, promised_sweeps, budget);
+        const double step = sweeps_of_step(problem.contact_count());
+        whole.gives_up =
+            slow_sweeps(static_cast<int>(std::min(500.0, 8.0 * step)), 12.0 * step, budget);
         return sweeps_->solve(problem, std::move(first), whole);
       });
     } else {  // the start itself, without impulses that move nothing
@@ -223,6 +225,9 @@ class NewtonBurst final : public Solver {
   /// where light contacts changed their status; what counts is where the sweeps after it end. Ends
   /// below the error `end`, or where three rounds in a row gained nothing.
   void descend(Course& course, NewtonIterate& at, double& error, double end) {
+    // A burst takes a quarter of a step's time, but no more than mends statuses.
+    const double quarter = 0.25 * sweeps_of_step(newton_.contacts().contact_count());
+    const int burst_sweeps = static_cast<int>(std::clamp(quarter, 10.0, 200.0));
     double epsilon = first_epsilon;
     int slow = 0, undone = 0;
     while (!course.over() && error > end && slow < 3 && undone < 2) {
@@ -261,16 +266,14 @@ class NewtonBurst final : public Solver {
   }
 
   /// Proximal-point steps by Newton alone: sweeps after a converged step would undo its long waves.
-  /// Ends where steps fail one after the other, gain little for long, or have taken their part.
+  /// Ends where steps fail one after the other, or gain little for long.
   void endgame(Course& course, NewtonIterate& at, double& error) {
-    constexpr int most_failures = 4, most_slow_steps = 15, most_steps = 60;
+    constexpr int most_failures = 4, most_slow_steps = 15;
     double epsilon = first_epsilon, halved = error;
-    int failures = 0, slow = 0, steps = 0;
-    while (!course.over() && failures < most_failures && slow < most_slow_steps &&
-           steps < most_steps) {
+    int failures = 0, slow = 0;
+    while (!course.over() && failures < most_failures && slow < most_slow_steps) {
       const NewtonIterate before = at;
       const Inner inner = proximal_step(course, at, error, epsilon);
-      steps += inner.steps;
       const double after = newton_.settle(at);
       offer(course, at, after);
       if (inner.converged && after < 1.5 * error) {
@@ -336,10 +339,6 @@ class NewtonBurst final : public Solver {
     return least;
   }
 
-  /// Before Newton's turn, at least. It comes where sweeps promise to need more than so many
-  /// others: in time about twenty Newton steps of some thousand contacts.
-  static constexpr int first_sweeps = 500, promised_sweeps = 6000;
-  static constexpr int burst_sweeps = 200;      ///< after a Newton step, at most
   static constexpr int most_walk_steps = 1000;  ///< Newton steps
   const bool begins_with_sweeps_;
   std::unique_ptr<Solver> sweeps_ = make_nesterov_pgs(/*returns_best=*/false);

@@ -31,9 +31,12 @@ class ContactSweep {
   /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
   virtual double error() = 0;
 
-  /// See WideSweep: the others sweep in double in any case.
+  // See WideSweep: the others sweep in double in any case.
   virtual void allow_single(bool) {}
   virtual bool finish_in_double() { return false; }
+  /// The error, perhaps in single precision; then no iterate can be stored before the next error().
+  virtual double rough_error() { return error(); }
+  virtual bool is_storable() const { return true; }
 };
 
 }  // namespace ballast

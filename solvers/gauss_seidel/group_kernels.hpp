@@ -40,24 +40,17 @@ struct alignas(64) RowGroup {
 
 template <typename Number>
 struct FrictionGroup : RowGroup<Number, 3> {
-  template <typename Other>
-  using Of = FrictionGroup<Other>;
   Number s2[group_lanes], inverse_s2[group_lanes], c1[group_lanes], c2[group_lanes],
       mu[group_lanes], inverse_mu[group_lanes];
 };
 
 template <typename Number>
-struct OneRowGroup : RowGroup<Number, 1> {
-  template <typename Other>
-  using Of = OneRowGroup<Other>;
-};
+struct OneRowGroup : RowGroup<Number, 1> {};
 
 /// Contacts of grains with one and the same body that has one unknown, the driven wall. Its side
 /// is a number a contact, and the lanes see its velocity one after the other.
 template <typename Number>
 struct WallGroup : RowGroup<Number, 1> {
-  template <typename Other>
-  using Of = WallGroup<Other>;
   Number wall[group_lanes];  ///< the row's entry for the wall's unknown L^T v
   int wall_body;             ///< distance of its velocity in bytes
 };
@@ -75,6 +68,12 @@ template <typename Number, int Rows>
 struct alignas(64) GroupImpulses {
   Number y[Rows][group_lanes];
   Number miss[group_lanes];  ///< by how much the closed form missed the last slip root (friction)
+};
+
+/// The velocities u' of a group's contacts at a look.
+template <int Rows>
+struct alignas(64) GroupVelocities {
+  float u[Rows][group_lanes];
 };
 
 /// Of a search that combines sweeps: what the last sweep changed, and the direction.
@@ -141,21 +140,16 @@ struct GroupLoops {
   void (*sweep)(const Run (&runs)[2], const SearchStep* step, Body* bodies, double (&squares)[2]);
   /// All impulses push their bodies once.
   void (*push)(const Group* groups, const Impulses* impulses, int count, Body* bodies);
+  /// The sum over contacts of the judge's scaled natural map squared [m^2/s^2]. `out` may be null.
+  double (*error)(const Group* groups, const Impulses* impulses, const GroupFrame* frames,
+                  int count, const Body* bodies, GroupVelocities<Group::rows>* out);
 };
 
 /// What is done in double alone.
 template <typename Group>
 struct ExactLoops : GroupLoops<Group> {
-  /// The same kind of group with numbers of 32 bits.
-  using Single = typename Group::template Of<float>;
-
   /// From rows and bias as given, and mu in the frames, to the group's coordinates.
   void (*make_principal)(Group* groups, GroupFrame* frames, int count);
-  /// The sum over contacts of the judge's scaled natural map squared [m^2/s^2]. The contacts'
-  /// velocities become the biases of `single`, where that is not null.
-  double (*error)(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses,
-                  const GroupFrame* frames, int count, const BodyRow<double>* bodies,
-                  Single* single);
 };
 
 /// `count` bodies that follow each other take the step of the search.

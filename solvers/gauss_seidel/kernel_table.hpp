@@ -31,6 +31,26 @@ BALLAST_INLINE void times(double* numbers, V factor) {
   (V::load(numbers) * factor).store(numbers);
 }
 
+/// The largest eigenvalue of symmetric 3 x 3 blocks, as largest_eigenvalue() finds it.
+template <typename V>
+BALLAST_INLINE V largest_eigenvalue_lanes(V nn, V tn, V sn, V tt, V st, V ss) {
+  const V zero = V::all(0.0), one = V::all(1.0);
+  const V off = tn * tn + sn * sn + st * st, mean = (nn + (tt + ss)) * V::all(1.0 / 3.0);
+  const V x = nn - mean, y = tt - mean, z = ss - mean;
+  const V square = (x * x + y * y + z * z + 2.0 * off) * V::all(1.0 / 6.0);
+  const V spread = square_root(square);
+  const V determinant = x * (y * z - st * st) - tn * (tn * z - st * sn) + sn * (tn * st - y * sn);
+  const V cosine = V::all(0.5) + 0.25 * determinant / (square * spread);
+  const V not_below = keep(less(zero, cosine), cosine);
+  const V s = square_root(select(less(one, not_below), one, not_below));
+  V w = V::all(0.57729) + s * (V::all(-0.10927) + s * (V::all(0.04318) - 0.01123 * s));
+  for (int step = 0; step < 2; ++step)
+    w = w - (w * w * (V::all(3.0) + 2.0 * s * w) - one) / (6.0 * w * (one + s * w));
+  // A diagonal block: the fractions above are 0 / 0 where its entries are equal.
+  const V two = select(less(nn, tt), tt, nn), three = select(less(two, ss), ss, two);
+  return select(less(zero, off), mean + spread * (one + 2.0 * s * w), three);
+}
+
 /// See make_principal in solvers/parts/one_contact.cpp.
 template <typename V>
 BALLAST_INLINE void make_principal_lanes(FrictionGroup<double>& k, GroupFrame& f, int lane) {
@@ -55,7 +75,9 @@ BALLAST_INLINE void make_principal_lanes(FrictionGroup<double>& k, GroupFrame& f
   // A lane without a contact: n = t = s2 = 1.
   const auto there = less(zero, w00);
   // Told apart: contacts that nothing moves along the normal, up to rounding (wide_sweep.cpp).
-  keep(less(V::all(0.25) * rounding * trace, w00), w00).store(f.lambda_max + lane);
+  keep(less(V::all(0.25) * rounding * trace, w00),
+       largest_eigenvalue_lanes(w00, w10, w20, w11, w21, w22))
+      .store(f.lambda_max + lane);
   const V n = square_root(select(there, w00, one)), t = square_root(select(there, s1, one));
   const V over_n = one / n, over_t = one / t;
   const V mu = V::load(f.mu + lane), scaled_mu = mu * t * over_n;
@@ -119,8 +141,8 @@ void make_principal_loop(Group* groups, GroupFrame* frames, int count) {
 /// The judge's scaled natural map |r - P_K(r - rho (u + mu |u_T| n))| / rho, squared (see
 /// problems/algebra/friction_cone.hpp).
 template <typename V>
-BALLAST_INLINE V natural_map_square(const FrictionGroup<double>& k, const GroupFrame& f, int lane,
-                                    const V* r, const V* moved) {
+BALLAST_INLINE V natural_map_square(const FrictionGroup<typename V::Number>& k, const GroupFrame& f,
+                                    int lane, const V* r, const V* moved) {
   const V zero = V::all(0.0), c1 = V::load(k.c1 + lane), c2 = V::load(k.c2 + lane),
           t = V::load(f.tangent + lane), over_t = V::load(f.inverse_tangent + lane),
           mu = V::load(f.mu + lane), lambda = V::load(f.lambda_max + lane);
@@ -147,8 +169,8 @@ BALLAST_INLINE V natural_map_square(const FrictionGroup<double>& k, const GroupF
 
 /// One row: n |y' - max(0, y' - u')|.
 template <typename V, typename Group>
-BALLAST_INLINE V natural_map_square(const Group&, const GroupFrame& f, int lane, const V* r,
-                                    const V* moved) {
+requires(Group::rows == 1) BALLAST_INLINE V
+    natural_map_square(const Group&, const GroupFrame& f, int lane, const V* r, const V* moved) {
   const V candidate = r[0] - moved[0];
   const V e = (r[0] - select(less(candidate, V::all(0.0)), V::all(0.0), candidate)) *
               V::load(f.normal + lane);
@@ -157,8 +179,8 @@ BALLAST_INLINE V natural_map_square(const Group&, const GroupFrame& f, int lane,
 
 /// The contacts' velocities, a wall's part included.
 template <typename V, typename Group>
-BALLAST_INLINE void contact_velocities(const Group& k, int lane, const BodyRow<double>* bodies,
-                                       V* moved) {
+BALLAST_INLINE void contact_velocities(const Group& k, int lane,
+                                       const BodyRow<typename V::Number>* bodies, V* moved) {
   V a[6], b[6];
   gather_bodies(bodies, k.body[0] + lane, a);
   gather_bodies(bodies, k.body[1] + lane, b);
@@ -167,16 +189,16 @@ BALLAST_INLINE void contact_velocities(const Group& k, int lane, const BodyRow<d
     moved[0] = moved[0] + wall_velocity(k, bodies) * V::load(k.wall + lane);
 }
 
-/// ExactLoops::error
+/// GroupLoops::error
 template <typename V, typename Group>
 double error_loop(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses,
-                  const GroupFrame* frames, int count, const BodyRow<double>* bodies,
-                  typename ExactLoops<Group>::Single* single) {
+                  const GroupFrame* frames, int count, const BodyRow<typename V::Number>* bodies,
+                  GroupVelocities<Group::rows>* out) {
   constexpr int rows = Group::rows;
   LaneSums<V> sums;
   for (int g = 0; g < count; ++g) {
     const Group& k = groups[g];
-    alignas(64) double all_moved[rows][group_lanes];
+    alignas(64) typename V::Number all_moved[rows][group_lanes];
     for (int lane = 0; lane < group_lanes; lane += V::width) {
       V r[rows], moved[rows];
       contact_velocities(k, lane, bodies, moved);
@@ -186,19 +208,19 @@ double error_loop(const Group* groups, const typename GroupLoops<Group>::Impulse
       }
       sums.add(lane, natural_map_square(k, frames[g], lane, r, moved));
     }
-    if (!single) continue;
+    if (!out) continue;
     for (int i = 0; i < rows; ++i)
       for (int lane = 0; lane < group_lanes; ++lane)
-        single[g].bias[i][lane] = static_cast<float>(all_moved[i][lane]);
+        out[g].u[i][lane] = static_cast<float>(all_moved[i][lane]);
   }
   return sums.total();
 }
 
 template <typename V, int K, typename Group>
-constexpr GroupLoops<Group> loops{sweep_loop<V, K, Group>, push_loop<V, Group>};
+constexpr GroupLoops<Group> loops{sweep_loop<V, K, Group>, push_loop<V, Group>,
+                                  error_loop<V, Group>};
 template <typename V, int K, typename Group>
-constexpr ExactLoops<Group> exact_loops{loops<V, K, Group>, make_principal_loop<V, Group>,
-                                        error_loop<V, Group>};
+constexpr ExactLoops<Group> exact_loops{loops<V, K, Group>, make_principal_loop<V, Group>};
 
 /// With registers of so many bytes; so many vectors of doubles, of singles are solved side by side.
 template <int Bytes, int DoubleVectors, int SingleVectors>

@@ -59,6 +59,10 @@ struct Lanes {
 
   /// From aligned memory.
   static BALLAST_INLINE Lanes load(const Number* p) { return {*reinterpret_cast<const Raw*>(p)}; }
+  /// The same numbers rounded.
+  static BALLAST_INLINE Lanes load(const double* p) requires(!is_double) {
+    return join(rounded(p), rounded(p + width / 2), std::make_integer_sequence<int, width>{});
+  }
   BALLAST_INLINE void store(Number* p) const { *reinterpret_cast<Raw*>(p) = x; }
   static BALLAST_INLINE Lanes all(double value) {
     return spread(static_cast<Number>(value), std::make_integer_sequence<int, width>{});
@@ -74,6 +78,15 @@ struct Lanes {
   template <int... Lane>
   static BALLAST_INLINE Lanes spread(Number value, std::integer_sequence<int, Lane...>) {
     return {Raw{(static_cast<void>(Lane), value)...}};
+  }
+  static BALLAST_INLINE auto rounded(const double* p) {
+    return __builtin_convertvector(*reinterpret_cast<const Register<double, Bytes>*>(p),
+                                   Register<float, Bytes / 2>);
+  }
+  template <int... Lane>
+  static BALLAST_INLINE Lanes join(Register<float, Bytes / 2> low, Register<float, Bytes / 2> high,
+                                   std::integer_sequence<int, Lane...>) {
+    return {__builtin_shufflevector(low, high, Lane...)};
   }
 };
 

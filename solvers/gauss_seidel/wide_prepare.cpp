@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "solvers/gauss_seidel/wide_sweep.hpp"
 
@@ -30,16 +29,6 @@ bool is_grain_mass(const double* mass) {
     for (int i = j + 1; i < 6; ++i)
       if (mass[j * 6 + i] != 0.0) return false;
   return true;
-}
-
-/// W_cc along the principal tangents: W_NN = n^2, W_TN = c W_NN, W_TT = S + c W_NN c^T.
-double block_lambda_max(const FrictionGroup<double>& k, const GroupFrame& f, int lane) {
-  const double n = f.normal[lane], t = f.tangent[lane];
-  const Eigen::Vector3d c(n, k.c1[lane] * t, k.c2[lane] * t);
-  Eigen::Matrix3d w = c * c.transpose();
-  w(1, 1) += t * t;
-  w(2, 2) += t * t * k.s2[lane];
-  return largest_eigenvalue(w);
 }
 
 }  // namespace
@@ -174,7 +163,7 @@ bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part
     made.wall.count += added.count;
   }
   // Between this part's groups and the next one's.
-  if (plan_.slabs() > 1)
+  if (plan_.slabs() > 1 && size_of(team_) > 1)
     for_kinds(
         [this]<typename Group>(Kind<Group>& kind) {
           add_empty_groups(kind, elements_apart<GroupImpulses<float, Group::rows>>());
@@ -221,12 +210,8 @@ bool WideSweep::make_records(const FrictionProblem& problem, Kind<Group>& kind,
       for (int lane = 0; lane < group_lanes; ++lane)
         if (f.contact[lane] >= 0 && !fill_lane(problem, k, f, lane)) made[member] = 0;
       loops.make_principal(&k, &f, 1);
-      for (int lane = 0; lane < group_lanes; ++lane) {
-        if (f.contact[lane] < 0) continue;
-        // Nothing moves it along its normal.
-        if (!(f.lambda_max[lane] > 0.0)) made[member] = 0;
-        if constexpr (requires { k.mu; }) f.lambda_max[lane] = block_lambda_max(k, f, lane);
-      }
+      for (int lane = 0; lane < group_lanes; ++lane)  // nothing moves it along its normal?
+        if (f.contact[lane] >= 0 && !(f.lambda_max[lane] > 0.0)) made[member] = 0;
     }
   });
   return std::find(made.begin(), made.end(), 0) == made.end();

@@ -181,7 +181,8 @@ double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, const S
 }
 
 double WideSweep::sweep_in_precision(const SearchStep* step) {
-  if (single_begins_) enter_single();
+  if (single_begins_) error();
+  ++unseen_;
   return in_single_ ? sweep_in(single_, kernels_->single, step)
                     : sweep_in(exact_, kernels_->exact, step);
 }
@@ -196,26 +197,43 @@ void WideSweep::start_search_in(State<Number>& state) {
 void WideSweep::start_search() { in_single_ ? start_search_in(single_) : start_search_in(exact_); }
 
 double WideSweep::error() {
-  if (!in_single_) return error_in_double();
-  refresh();
-  const double error = error_in_double();
-  single_suffices(error) ? choose_awake(error) : leave_single();
-  return error;
+  const bool begins = single_begins_;
+  if (begins)
+    enter_single();
+  else if (in_single_)
+    refresh();
+  else
+    return error_in(exact_, kernels_->exact);
+  seen_error_ = error_in(exact_, kernels_->exact);
+  for_parts(exact_, [this](Part& part) { settle(part); });
+  unseen_ = 0;
+  begins || single_suffices(seen_error_) ? choose_awake(seen_error_) : leave_single();
+  return seen_error_;
 }
 
-/// In single precision, the contacts' velocities become its biases.
-double WideSweep::error_in_double() {
-  for_parts(exact_, [this](Part& part) {
-    if (in_single_) settle(part);
+/// In double before rounding could show, and where many sweeps have passed.
+double WideSweep::rough_error() {
+  constexpr int most_unseen = 64;
+  constexpr double least_share = 1.0 / 32.0;
+  if (!in_single_ || unseen_ >= most_unseen) return error();
+  const double rough = error_in(single_, kernels_->single);
+  if (!(rough > least_share * seen_error_)) return error();
+  choose_awake(rough);
+  return rough;
+}
+
+template <typename Number, typename Kernels>
+double WideSweep::error_in(const State<Number>& state, const Kernels& kernels) {
+  for_parts(state, [&](Part& part) {
     part.error_square = 0.0;
     for_kinds(
-        [&](const auto& kind, auto& single, const auto& loops, const Range& range) {
+        [&](const auto& kind, const auto& exact, auto& single, const auto& loops, Range range) {
           part.error_square +=
               loops.error(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
-                          kind.frames.data() + range.begin, range.count, exact_.bodies.data(),
-                          in_single_ ? single.groups.data() + range.begin : nullptr);
+                          exact.frames.data() + range.begin, range.count, state.bodies.data(),
+                          in_single_ ? single.seen.data() + range.begin : nullptr);
         },
-        exact_, single_, kernels_->exact, part);
+        state, exact_, single_, kernels, part);
   });
   double sum = 0.0;
   for (const Part& part : parts_) sum += part.error_square;
@@ -224,13 +242,13 @@ double WideSweep::error_in_double() {
 
 // Sweeps in single precision, made good in double at every look at the error.
 //
-// At a look the impulses are taken to double and push the bodies in double; each contact's velocity
-// that follows becomes its bias, and the bodies of the single state start at zero again. So where
-// the single sweeps come to rest is the double problem's solution, and what they round is the
-// change since the last look. What is left is the rounding of the impulses themselves.
+// At a look in double the impulses are taken to double and push the bodies in double; each
+// contact's velocity that follows becomes its bias, and the bodies of the single state start at
+// zero again. So where the single sweeps come to rest is the double problem's solution, and what
+// they round is the change since that look. What is left is the rounding of the impulses
+// themselves.
 
-/// Records are cast once for each prepare(), impulses now; what follows from them is that of the
-/// rounded impulses.
+/// Records are cast once for each prepare(), impulses now.
 void WideSweep::enter_single() {
   single_begins_ = false;
   in_single_ = true;
@@ -238,6 +256,7 @@ void WideSweep::enter_single() {
       [](const auto& exact, auto& single) {
         single.impulses.resize(exact.groups.size());
         single.groups.resize(exact.groups.size());
+        single.seen.resize(exact.groups.size());
         single.awake.resize(exact.groups.size());
       },
       exact_, single_);
@@ -256,8 +275,6 @@ void WideSweep::enter_single() {
   single_.bodies.assign(exact_.bodies.size(), {});
   last_bodies_ = exact_.bodies;
   start_search();
-  refresh();
-  choose_awake(error_in_double());  // which makes the biases, too
 }
 
 /// The iterate in double, and how large its impulses are.
@@ -283,7 +300,8 @@ void WideSweep::refresh() {
 }
 
 /// How far the single sweeps were off, over a slab's bodies: between the velocities that they had
-/// and those that their impulses give. The single bodies start at zero, and the last change stays.
+/// and those that their impulses give. The single bodies start at zero, and the last change stays;
+/// the velocities that contacts have become their biases.
 void WideSweep::settle(Part& part) {
   part.drift_square = 0.0;
   for (int b = part.bodies.begin; b < part.bodies.begin + part.bodies.count; ++b) {
@@ -294,6 +312,12 @@ void WideSweep::settle(Part& part) {
     for (int i = 0; i < 8; ++i) single_.before[b].w[i] -= single_.bodies[b].w[i];
     single_.bodies[b] = {};
   }
+  for_kinds(
+      [](auto& single, const Range& range) {
+        for (int g = range.begin; g < range.begin + range.count; ++g)
+          cast_rows(single.seen[g].u, single.groups[g].bias);
+      },
+      single_, part);
 }
 
 /// The rounding of an impulse, as a velocity of its contact, is no smaller than 2^-24 n y'. Beside
@@ -318,7 +342,7 @@ void WideSweep::choose_awake(double error) {
     const auto& y = kind.impulses[g].y;
     for (int lane = 0; lane < group_lanes; ++lane) {
       if (frame.contact[lane] < 0) continue;
-      if (!(frame.normal[lane] * kind.groups[g].bias[0][lane] > least)) return false;
+      if (!(frame.normal[lane] * kind.seen[g].u[0][lane] > least)) return false;
       for (size_t i = 0; i < std::size(y); ++i)
         if (y[i][lane] != 0 || (!kind.search.empty() && (kind.search[g].direction[i][lane] != 0 ||
                                                          kind.search[g].change[i][lane] != 0)))

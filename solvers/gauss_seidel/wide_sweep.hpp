@@ -39,6 +39,9 @@ class WideSweep final : public ContactSweep {
   /// Whether sweeps from the next load() on are in single precision, until finish_in_double() or
   /// until their rounding shows in the error. Loads, stores and errors are in double in any case.
   void allow_single(bool allowed) override { single_allowed_ = allowed; }
+  /// Of the single iterate as it is, for a third of error()'s cost; now and then error() itself.
+  double rough_error() override;
+  bool is_storable() const override { return !in_single_ || unseen_ == 0; }
   /// Where sweeps were in single precision: one more in double, and the next ones are too, to the
   /// next load(). Says whether that was so. A search begins anew.
   bool finish_in_double() override;
@@ -58,7 +61,9 @@ class WideSweep final : public ContactSweep {
     std::vector<GroupFrame> frames;  ///< in double alone
     std::vector<typename Loops::Impulses> impulses;
     std::vector<typename Loops::Search> search;
-    std::vector<int> awake;  ///< see Range; in single precision alone
+    // In single precision alone: of the last look; see Range.
+    std::vector<GroupVelocities<Group::rows>> seen;
+    std::vector<int> awake;
   };
   /// All groups and the iterate, in double or single precision.
   template <typename Number>
@@ -140,7 +145,8 @@ class WideSweep final : public ContactSweep {
   void enter_single();
   void refresh();
   void settle(Part& part);
-  double error_in_double();
+  template <typename Number, typename Kernels>
+  double error_in(const State<Number>& state, const Kernels& kernels);
   bool single_suffices(double error) const;
   void choose_awake(double error);
   void leave_single();
@@ -171,6 +177,8 @@ class WideSweep final : public ContactSweep {
   bool single_begins_ = false;                ///< at the next sweep
   bool may_rest_ = true;                      ///< see choose_awake()
   bool in_single_ = false;
+  int unseen_ = 0;           ///< single sweeps since the last look in double
+  double seen_error_ = 0.0;  ///< that look's error
 };
 
 }  // namespace ballast

@@ -73,6 +73,7 @@ class Iteration : public SolveBook {
   bool ends_with(double error) const {
     return reached(error) || count_ >= budget_.max_iterations || out_of_time_;
   }
+  bool is_over() const { return reason_.has_value(); }  ///< a reason to stop was found
   /// Takes the scaled natural map (rms) of the current iterate `r`, records it, and decides. `r` is
   /// read where the budget asks for another measure.
   void evaluated(double error, const Impulses& r);

@@ -36,6 +36,22 @@ TEST_CASE("where sweeps arrive, auto is sweeps with momentum, bit for bit", "[fa
   }
 }
 
+TEST_CASE("where no contact closes, auto has nothing to solve", "[factors]") {
+  for (const bool is_stored : {false, true}) {
+    FrictionProblem problem = make_pile({.contacts = 60, .is_stored = is_stored, .seed = 4});
+    Eigen::VectorXd& rest = is_stored ? problem.delassus.q : problem.dynamics.bias;
+    for (int c = 0; c < problem.contact_count(); ++c) rest[problem.row_begin[c]] += 1e3;
+    const SolverRun open = judged_by(make_auto(), problem, {.tolerance = 1e-12});
+    CHECK(open.is_solved());
+    CHECK(open.solved.iterations == 0);
+    CHECK(open.solved.impulses.isZero(0.0));
+    rest[problem.row_begin[40]] -= 2e3;  // now one does
+    const SolverRun closed = judged_by(make_auto(), problem, {.tolerance = 1e-9});
+    CHECK(closed.is_solved());
+    CHECK(closed.solved.impulses.norm() > 0.0);
+  }
+}
+
 TEST_CASE("where iterations are scarce, sweeps leave them to Newton while there are enough",
           "[factors]") {
   const Budget scarce{.tolerance = 1e-7, .max_iterations = 300};

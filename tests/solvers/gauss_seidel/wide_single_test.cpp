@@ -104,6 +104,26 @@ TEST_CASE("single: errors fall as in double, for mass ratios up to a million") {
   }
 }
 
+TEST_CASE("single: a rough look sees the error; now and then it is in double") {
+  const FrictionProblem problem = grain_problem({.mass_ratio = 1e3, .seed = 6});
+  Wide single(problem, true);
+  single.sweep.error();
+  for (int look = 0; look < 10; ++look) {
+    for (int k = 0; k < 20; ++k) single.sweep.sweep();
+    const double rough = single.sweep.rough_error();
+    CHECK_FALSE(single.sweep.is_storable());
+    CHECK(single.sweep.error() == Approx(rough).epsilon(1e-4));
+    CHECK(single.sweep.is_storable());
+  }
+  int in_double = 0;
+  for (int look = 0; look < 10; ++look) {
+    for (int k = 0; k < 20; ++k) single.sweep.sweep();
+    single.sweep.rough_error();
+    in_double += single.sweep.is_storable();
+  }
+  CHECK(in_double == 2);  // every fourth
+}
+
 TEST_CASE("single: a guess that overflows is not taken for a slip root") {
   for (const GroupKernels* kernels : all_group_kernels()) {
     INFO(kernels->instruction_set);
