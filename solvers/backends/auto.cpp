@@ -42,7 +42,7 @@ class Auto final : public Solver {
     if (course.best().isZero(0.0) && nothing_presses(problem)) course.offer(course.best(), 0.0);
     if (course.over()) return course.finish();
     course.run([&](Impulses first, Budget whole) {
-      whole.gives_up = slow_sweeps(least_sweeps(step, budget), enough_steps * step, budget);
+      whole.gives_up = slow_sweeps(step, 0.25 * budget.max_iterations, budget);
       return prepared(sweeps_, problem).solve(problem, std::move(first), whole);
     });
     int idle = 0;
@@ -63,15 +63,11 @@ class Auto final : public Solver {
   };
 
   /// No contact closes without impulses, which are then a solution.
-  bool nothing_presses(const FrictionProblem& problem) {
-    const DynamicsForm& d = problem.dynamics;
-    free_.resize(problem.has_dynamics ? problem.row_count() : 0);
-    for (int c = 0; c < problem.contact_count(); ++c) {
-      if (problem.has_dynamics)
-        body_to_contact_velocity(d, problem.row_begin, d.v_free, c, c + 1, free_);
-      const int normal = problem.row_begin[c];
-      if (!((problem.has_dynamics ? free_ : problem.delassus.q)[normal] >= 0.0)) return false;
-    }
+  static bool nothing_presses(const FrictionProblem& problem) {
+    Eigen::VectorXd q;
+    free_contact_velocity(problem, q);
+    for (int c = 0; c < problem.contact_count(); ++c)
+      if (!(q[problem.row_begin[c]] >= 0.0)) return false;
     return true;
   }
 
@@ -86,18 +82,10 @@ class Auto final : public Solver {
     course.run(prepared(way, problem), problem, static_cast<int>(std::min(iterations, 1e9)));
   }
 
-  /// Before sweeps are judged: as many as cost some steps, but not most of what there is.
-  static int least_sweeps(double step, const Budget& budget) {
-    return static_cast<int>(std::min({500.0, 8.0 * step, 0.25 * budget.max_iterations}));
-  }
-
-  /// Steps that bring Newton home more often than not.
-  static constexpr double enough_steps = 12.0;
   static constexpr double first_steps = 40.0;  ///< of Newton's first turn
   /// Of so few a sweep is as dear as a factorisation.
   static constexpr int few_iterations = 1000;
 
-  Eigen::VectorXd free_;  ///< contact velocities without impulses
   Way sweeps_{make_nesterov_pgs(/*returns_best=*/false)};
   Way burst_{make_newton_burst(/*begins_with_sweeps=*/false)};
   Way proximal_{make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4})};

@@ -39,9 +39,11 @@ std::unique_ptr<Solver> make_nesterov_pgs(bool returns_best = true);
 /// for interactive contact force problems".
 std::unique_ptr<Solver> make_nncg();
 
-/// For Budget::gives_up of sweeps: after `least` of them, where two looks in a row promise that the
-/// rest of the way to budget.aim() takes more than `most` others. `budget` outlives it.
-std::function<bool(int, double)> slow_sweeps(int least, double most, const Budget& budget);
+/// For Budget::gives_up of sweeps, of which `step` cost as much as a Newton step: where two looks
+/// in a row promise that the rest of the way to budget.aim() costs more than the dozen steps that
+/// mostly bring Newton home. Not before 8 steps' worth, 500 or `at_most` sweeps, whichever is
+/// least. `budget` outlives it.
+std::function<bool(int, double)> slow_sweeps(double step, double at_most, const Budget& budget);
 
 /// Sweeps over bodies that cost as much as a step of Newton's method. Measured on packings of 80 to
 /// 8000 contacts.

@@ -317,7 +317,9 @@ std::unique_ptr<Solver> make_nncg() {
 
 double sweeps_of_step(int contacts) { return 1.3 * std::sqrt(contacts * std::sqrt(contacts)); }
 
-std::function<bool(int, double)> slow_sweeps(int least, double most, const Budget& budget) {
+std::function<bool(int, double)> slow_sweeps(double step, double at_most, const Budget& budget) {
+  const int least = static_cast<int>(std::min({500.0, 8.0 * step, at_most}));
+  const double most = 12.0 * step;
   return [=, pace = SweepPace(), refusals = 0, &budget](int sweeps, double error) mutable {
     const double left = pace.left(sweeps, error, budget.aim());
     // One look may have met the error on its way up.

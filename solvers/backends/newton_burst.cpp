@@ -163,8 +163,7 @@ class NewtonBurst final : public Solver {
     if (begins_with_sweeps_) {
       course.run([&](Impulses first, Budget whole) {
         const double step = sweeps_of_step(problem.contact_count());
-        whole.gives_up =
-            slow_sweeps(static_cast<int>(std::min(500.0, 8.0 * step)), 12.0 * step, budget);
+        whole.gives_up = slow_sweeps(step, budget.max_iterations, budget);
         return sweeps_->solve(problem, std::move(first), whole);
       });
     } else {  // the start itself, without impulses that move nothing

@@ -197,13 +197,9 @@ void WideSweep::start_search_in(State<Number>& state) {
 void WideSweep::start_search() { in_single_ ? start_search_in(single_) : start_search_in(exact_); }
 
 double WideSweep::error() {
+  if (!single_begins_ && !in_single_) return error_in(exact_, kernels_->exact);
   const bool begins = single_begins_;
-  if (begins)
-    enter_single();
-  else if (in_single_)
-    refresh();
-  else
-    return error_in(exact_, kernels_->exact);
+  begins ? enter_single() : refresh();
   seen_error_ = error_in(exact_, kernels_->exact);
   for_parts(exact_, [this](Part& part) { settle(part); });
   unseen_ = 0;

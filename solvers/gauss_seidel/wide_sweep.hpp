@@ -174,7 +174,7 @@ class WideSweep final : public ContactSweep {
   std::vector<BodyRow<double>> last_bodies_;  ///< exact_.bodies of the last look
   bool single_made_ = false;                  ///< records cast since prepare()
   bool single_allowed_ = false;               ///< from the next load() on
-  bool single_begins_ = false;                ///< at the next sweep
+  bool single_begins_ = false;                ///< at the next look or sweep
   bool may_rest_ = true;                      ///< see choose_awake()
   bool in_single_ = false;
   int unseen_ = 0;           ///< single sweeps since the last look in double

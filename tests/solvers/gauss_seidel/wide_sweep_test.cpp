@@ -136,6 +136,7 @@ TEST_CASE("wide: the same bits on every instruction set, with any number of thre
         for (int k = 0; k < 20; ++k) {
           numbers.push_back(wide.sweep.sweep_along(samples::varied_step(k)));
           if (k % 5 == 4) numbers.push_back(wide.sweep.rough_error());
+          if (k % 10 == 9) numbers.push_back(wide.sweep.error());
         }
         for (int k = 0; k < 5; ++k) wide.sweep.sweep();
         CHECK(wide.sweep.is_single() == single);
