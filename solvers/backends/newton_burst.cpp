@@ -3,18 +3,18 @@
 #include <utility>
 
 #include "solvers/backends/backends.hpp"
-#include "solvers/parts/body_matrix.hpp"
+#include "solvers/parts/newton_system.hpp"
 #include "solvers/parts/regular_contact.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
 namespace {
 
-/// Impulses and the body velocities that they give. Linear in each other: an iterate and a step of
-/// it are combined alike.
+/// Impulses and the contact velocities that they give, u = W r + q. Linear in each other: an
+/// iterate and a step of it are combined alike.
 struct NewtonIterate {
-  ContactColumns r;
-  Eigen::VectorXd x;
+  Impulses r;
+  Eigen::VectorXd u;
 };
 
 /// Newton's method on the regularised law of all contacts (regular_contact.hpp): every contact's
@@ -23,59 +23,50 @@ struct NewtonIterate {
 class RegularNewton {
  public:
   void prepare(const FrictionProblem& problem) {
-    contacts_.prepare(problem);
-    matrix_.prepare(contacts_);
-    gain_.resize(contacts_.contact_count());
-    source_.resize(3, contacts_.contact_count());
-    status_.resize(contacts_.contact_count());
+    w_.prepare(problem);
+    system_.prepare(w_);
+    gain_.resize(w_.contact_count());
+    source_.resize(problem.row_count());
+    compliance_.resize(problem.row_count());
+    status_.resize(w_.contact_count());
   }
-  const UnitMassContacts& contacts() const { return contacts_; }
-  void use_team(WorkerTeam* team) { matrix_.use_team(team); }
+  void use_team(WorkerTeam* team) { system_.use_team(team); }
 
-  /// The iterate with x from r.
-  NewtonIterate iterate(const Impulses& r) const {
-    NewtonIterate at;
-    contacts_.from_impulses(r, at.r);
-    contacts_.body_velocity(at.r, at.x);
-    return at;
-  }
-
-  /// Every impulse into its cone, which a Newton step may leave; x from r afresh. Returns the
+  /// Every impulse into its cone, which a Newton step may leave; u from r afresh. Returns the
   /// judge's error [m/s].
-  double settle(NewtonIterate& at) const {
-    contacts_.project(at.r);
-    contacts_.body_velocity(at.r, at.x);
-    return contacts_.error(at.r, [&](int c) { return contacts_.velocity(at.x, c); });
-  }
+  double settle(NewtonIterate& at) { return w_.begin_at(at.r, at.u); }
 
   /// From here on the law is regularised by `epsilon` around `centre`, and no status is known.
-  void set_centre(const ContactColumns& centre, double epsilon) {
+  void set_centre(const Impulses& centre, double epsilon) {
     centre_ = centre;
     epsilon_ = epsilon;
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      const double rho = w_.rho()[c];
+      w_.put(compliance_, c, Eigen::Vector3d::Constant(rho > 0.0 ? epsilon / rho : 0.0));
+    }
     has_status_ = false;
   }
 
   /// Natural map of the regularised law [m/s], rms over contacts; the law's own error where `at` is
   /// the centre.
-  double residual(const NewtonIterate& at) const {
-    return contacts_.error(at.r, [&](int c) { return velocity(at, c); });
-  }
+  double residual(const NewtonIterate& at) { return w_.error(at.r, regular_velocity(at)); }
 
   /// Every contact's status at `at`, and its law linearised for it. Returns how many contacts had
   /// another status when they were last linearised around this centre; 0 the first time. A step is
   /// exact for the statuses that it was made for; where many change it means little.
   int linearise(const NewtonIterate& at) {
     int changed = 0;
-    for (int c = 0; c < contacts_.contact_count(); ++c) {
-      const UnitMassContacts::Contact& k = contacts_[c];
+    const Eigen::VectorXd& u = regular_velocity(at);
+    for (int c = 0; c < w_.contact_count(); ++c) {
+      const double rho = w_.rho()[c];
       RegularStep law;
-      if (k.lambda_max > 0.0)
-        law = regular_step(k, epsilon_, at.r.col(c), velocity(at, c));
+      if (rho > 0.0)
+        law = regular_step(w_.friction(c), rho, epsilon_, w_.at(at.r, c), w_.at(u, c));
       else  // nothing moves: no impulse
-        law.source = -at.r.col(c);
+        law.source = -w_.at(at.r, c);
       changed += has_status_ && law.status != status_[c];
       status_[c] = law.status;
-      source_.col(c) = law.source;
+      w_.put(source_, c, law.source);
       gain_[c] = law.gain;
     }
     has_status_ = true;
@@ -85,48 +76,25 @@ class RegularNewton {
   /// One factorisation: the full step from where the law was linearised. It may raise the residual
   /// a hundredfold where statuses change. False: the matrix is singular or the step not finite.
   bool step(NewtonIterate& change) {
-    // With dr = source - gain G dx the bodies' dx = G^T dr becomes (1 + G^T gain G) dx = G^T
-    // source.
-    right_ = Eigen::VectorXd::Zero(contacts_.unknown_count());
-    for (int c = 0; c < contacts_.contact_count(); ++c) contacts_.push(right_, c, source_.col(c));
-    if (!matrix_.factor(gain_)) return false;
-    matrix_.solve_once(right_, change.x);
-    improve(change.x);
-    if (!change.x.allFinite()) return false;
     change.r = source_;
-    for (int c = 0; c < contacts_.contact_count(); ++c)
-      if (status_[c] != ContactStatus::open)
-        change.r.col(c).noalias() -= gain_[c] * contacts_.relative(change.x, c);
-    return true;
+    return system_.solve_springs(w_, gain_, change.r, change.u, /*enough=*/1e-10);
   }
 
  private:
-  /// u + epsilon_c (r - centre)
-  Eigen::Vector3d velocity(const NewtonIterate& at, int c) const {
-    const double compliance = epsilon_ * contacts_[c].lambda_max;
-    return contacts_.velocity(at.x, c) + compliance * (at.r.col(c) - centre_.col(c));
+  /// u + epsilon_c (r - centre), until the next call.
+  const Eigen::VectorXd& regular_velocity(const NewtonIterate& at) {
+    return u_ = at.u + compliance_.cwiseProduct(at.r - centre_);
   }
 
-  /// (I + G^T gain G) x = right_, improved by its residual, once, where that is larger than 1e-10
-  /// of the right-hand side: there are no pivots.
-  void improve(Eigen::VectorXd& x) {
-    // What is left, by way of the contacts: cheaper than the matrix.
-    rest_ = right_ - x;
-    for (int c = 0; c < contacts_.contact_count(); ++c)
-      if (!gain_[c].isZero(0.0)) contacts_.push(rest_, c, -(gain_[c] * contacts_.relative(x, c)));
-    if (!(rest_.norm() > 1e-10 * right_.norm())) return;
-    matrix_.solve_once(rest_, rest_);
-    x += rest_;
-  }
-
-  UnitMassContacts contacts_;
-  BodyMatrix matrix_;
-  ContactColumns centre_, source_;
+  ContactOperator w_;
+  NewtonSystem system_;
+  Impulses centre_, source_;
+  Eigen::VectorXd compliance_;  ///< epsilon_c of each row
+  Eigen::VectorXd u_;
   double epsilon_ = 1e-3;
   std::vector<Eigen::Matrix3d> gain_;
   std::vector<ContactStatus> status_;
   bool has_status_ = false;
-  Eigen::VectorXd right_, rest_;
 };
 
 /// The compliance, as a part of lambda_max(W_cc).
@@ -167,15 +135,16 @@ class NewtonBurst final : public Solver {
         return sweeps_->solve(problem, std::move(first), whole);
       });
     } else {  // the start itself, without impulses that move nothing
-      NewtonIterate at = newton_.iterate(course.best());
-      offer(course, at, newton_.settle(at));
+      NewtonIterate at{course.best(), {}};
+      const double error = newton_.settle(at);
+      course.offer(at.r, error);
     }
     if (course.over()) return course.finish();
     make_ready();
     // The error without any impulse says how large the problem's velocities are.
-    NewtonIterate at = newton_.iterate(Impulses::Zero(problem.row_count()));
+    NewtonIterate at{Impulses::Zero(problem.row_count()), {}};
     const double scale = newton_.settle(at), end = endgame_from * scale;
-    at = newton_.iterate(course.best());
+    at.r = course.best();
     double error = newton_.settle(at);
     descend(course, at, error, end);
     if (course.over()) return course.finish();
@@ -200,23 +169,16 @@ class NewtonBurst final : public Solver {
     is_ready_ = true;
   }
 
-  void offer(Course& course, const NewtonIterate& at, double error) {
-    newton_.contacts().to_impulses(at.r, impulses_);
-    course.offer(impulses_, error);
-  }
-
   /// Accelerated sweeps from `at`, at most so many. Returns the error there [m/s].
   double burst(Course& course, NewtonIterate& at, int sweeps) {
     Budget budget = course.rest();
     budget.max_iterations = std::min(budget.max_iterations, sweeps);
     budget.keep_history = false;
-    newton_.contacts().to_impulses(at.r, impulses_);
-    Solved swept = sweeps_->solve(*problem_, std::move(impulses_), budget);
-    impulses_ = std::move(swept.impulses);
-    at = newton_.iterate(impulses_);
+    Solved swept = sweeps_->solve(*problem_, std::move(at.r), budget);
+    at.r = std::move(swept.impulses);
     const double error = newton_.settle(at);
     course.spend(swept.iterations);
-    course.offer(impulses_, error);
+    course.offer(at.r, error);
     return error;
   }
 
@@ -225,7 +187,7 @@ class NewtonBurst final : public Solver {
   /// below the error `end`, or where three rounds in a row gained nothing.
   void descend(Course& course, NewtonIterate& at, double& error, double end) {
     // A burst takes a quarter of a step's time, but no more than mends statuses.
-    const double quarter = 0.25 * sweeps_of_step(newton_.contacts().contact_count());
+    const double quarter = 0.25 * sweeps_of_step(problem_->contact_count());
     const int burst_sweeps = static_cast<int>(std::clamp(quarter, 10.0, 200.0));
     double epsilon = first_epsilon;
     int slow = 0, undone = 0;
@@ -241,7 +203,7 @@ class NewtonBurst final : public Solver {
       }
       at.r += change_.r;
       double after = newton_.settle(at);
-      offer(course, at, after);
+      course.offer(at.r, after);
       if (course.over()) return;
       NewtonIterate swept = at;
       const double swept_error = burst(course, swept, burst_sweeps);
@@ -274,7 +236,7 @@ class NewtonBurst final : public Solver {
       const NewtonIterate before = at;
       const Inner inner = proximal_step(course, at, error, epsilon);
       const double after = newton_.settle(at);
-      offer(course, at, after);
+      course.offer(at.r, after);
       if (inner.converged && after < 1.5 * error) {
         // The next step may go further, the easier this one was.
         epsilon *= inner.steps <= 2 ? 0.2 : inner.steps <= 3 ? 0.4 : inner.steps <= 5 ? 0.7 : 1.0;
@@ -301,7 +263,7 @@ class NewtonBurst final : public Solver {
   Inner proximal_step(Course& course, NewtonIterate& at, double error, double epsilon) {
     constexpr double enough = 0.3;
     constexpr int most_steps = 10, most_stalled = 3;
-    const int many = newton_.contacts().contact_count() / 8;
+    const int many = problem_->contact_count() / 8;
     newton_.set_centre(at.r, epsilon);
     double residual = error, least = std::numeric_limits<double>::max();
     for (int k = 0, stalled = 0;; ++k) {
@@ -326,7 +288,7 @@ class NewtonBurst final : public Solver {
     double t = 1.0, least = std::numeric_limits<double>::max();
     for (int k = 0; k < trials; ++k, t *= 0.5) {
       trial_.r = at.r + t * change_.r;
-      trial_.x = at.x + t * change_.x;
+      trial_.u = at.u + t * change_.u;
       const double there = newton_.residual(trial_);
       if (k == 0 || there < least) {
         least = there;
@@ -348,7 +310,6 @@ class NewtonBurst final : public Solver {
   bool is_ready_ = false;  ///< newton_ is prepared for problem_
   const FrictionProblem* problem_ = nullptr;
   NewtonIterate change_, trial_, best_trial_;
-  Impulses impulses_;
 };
 
 }  // namespace

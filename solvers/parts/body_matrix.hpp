@@ -7,7 +7,6 @@
 
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/parts/front_lu.hpp"
-#include "solvers/parts/unit_mass_contacts.hpp"
 
 namespace ballast {
 
@@ -16,8 +15,6 @@ class BodyMatrix {
   /// Pattern, order, analysis and the places of all blocks. `problem`, which has a dynamics form,
   /// must outlive the use of the matrix.
   void prepare(const FrictionProblem& problem);
-  /// The same of I + G^T E G. Its unknowns are those of `contacts`, which must outlive its use.
-  void prepare(const UnitMassContacts& contacts);
   /// FrontLu::use_team
   void use_team(WorkerTeam* team) { fronts_.use_team(team); }
 
@@ -26,11 +23,11 @@ class BodyMatrix {
   bool factor(const std::vector<Eigen::Matrix3d>& gain);
   /// x = A^-1 b by the factors alone. `x` may be `b`.
   void solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) { fronts_.solve(b, x); }
-  /// The matrix with E_c = gain[c] and x = A^-1 b, improved once by its residual. Where that stays
-  /// large, as no rows are exchanged, by an LU that exchanges them. False: singular. `x` must not
-  /// be `b`.
-  bool solve(const std::vector<Eigen::Matrix3d>& gain, const Eigen::VectorXd& b,
-             Eigen::VectorXd& x);
+  /// The matrix with E_c = gain[c] and x = A^-1 b, improved once by its residual where that is
+  /// above `enough` of |b|. Where it stays large, as no rows are exchanged, by an LU that exchanges
+  /// them. False: singular. `x` must not be `b`.
+  bool solve(const std::vector<Eigen::Matrix3d>& gain, const Eigen::VectorXd& b, Eigen::VectorXd& x,
+             double enough = 0.0);
 
  private:
   /// A block: its first entry among the matrix's values, and entries from one of its columns to the
@@ -38,18 +35,11 @@ class BodyMatrix {
   struct Place {
     int first, height;
   };
-  void analyse(const std::vector<int>& dof_begin);
   void add_masses();
   void add_contact(int c, const Eigen::Matrix3d& gain);
-  void add_unit_contact(int c, const Eigen::Matrix3d& gain);
-  double* column(const Place& block, int j) {
-    return matrix_.valuePtr() + block.first + j * block.height;
-  }
 
   const FrictionProblem* problem_ = nullptr;
-  const UnitMassContacts* unit_ = nullptr;  ///< in place of the problem
   SparseColumns matrix_;
-  std::vector<std::array<int, 2>> pair_;      ///< bodies of each contact; -1: does not move
   std::vector<std::array<Place, 4>> blocks_;  ///< of each contact: aa, ab, ba, bb
   std::vector<Place> masses_;                 ///< of each body: its own block
   FrontLu fronts_;

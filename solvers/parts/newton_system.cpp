@@ -103,27 +103,30 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
                                 const std::vector<ContactLinearisation>& linear,
                                 const std::vector<double>& alpha, Impulses& dr) {
   const FrictionProblem& problem = w.problem();
-  const DynamicsForm& d = problem.dynamics;
-  // The contacts' equations give dr = -B^-1 f - E du, du = H dv, and the bodies' M dv = H^T dr.
   gain_.resize(linear.size());
-  source_.resize(linear.size());
   dr.resize(problem.row_count());
   for (int c = 0; c < problem.contact_count(); ++c) {
     const Eigen::Matrix3d inverse = (linear[c].by_r + alpha[c] * linear[c].by_u).inverse();
-    source_[c] = inverse * linear[c].f;
+    const Eigen::Vector3d source = inverse * linear[c].f;
     gain_[c] = inverse * linear[c].by_u;
     if (problem.contact_rows(c) == 1)
       gain_[c] = Eigen::Vector3d(gain_[c](0, 0), 0.0, 0.0).asDiagonal();
-    if (!source_[c].allFinite() || !gain_[c].allFinite()) return false;
-    w.put(dr, c, -source_[c]);
+    if (!source.allFinite() || !gain_[c].allFinite()) return false;
+    w.put(dr, c, -source);
   }
-  contact_to_body_impulse(d, problem.row_begin, dr, right_);
-  if (!matrix_.solve(gain_, right_, dv_)) return false;
-  body_to_contact_velocity(d, problem.row_begin, dv_, u_);
+  return solve_springs(w, gain_, dr, u_);
+}
+
+bool NewtonSystem::solve_springs(const ContactOperator& w, const std::vector<Eigen::Matrix3d>& gain,
+                                 Impulses& dr, Eigen::VectorXd& du, double enough) {
+  const FrictionProblem& problem = w.problem();
+  contact_to_body_impulse(problem.dynamics, problem.row_begin, dr, right_);
+  if (!matrix_.solve(gain, right_, dv_, enough)) return false;
+  body_to_contact_velocity(problem.dynamics, problem.row_begin, dv_, du);
   // It adds the bias, which a change of velocity has not.
-  u_ -= d.bias;
+  du -= problem.dynamics.bias;
   for (int c = 0; c < problem.contact_count(); ++c)
-    w.put(dr, c, -source_[c] - gain_[c] * w.at(u_, c));
+    w.put(dr, c, w.at(dr, c) - gain[c] * w.at(du, c));
   return true;
 }
 

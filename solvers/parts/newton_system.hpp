@@ -30,6 +30,12 @@ class NewtonSystem {
   bool solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
              const std::vector<double>& alpha, Impulses& dr);
 
+  /// dr = source - gain_c du,   du = W dr
+  /// by the same elimination, (M + H^T gain H) dv = H^T source. `dr` holds the source before.
+  /// `enough`: BodyMatrix::solve. Dynamics form only. False: singular, or not finite.
+  bool solve_springs(const ContactOperator& w, const std::vector<Eigen::Matrix3d>& gain,
+                     Impulses& dr, Eigen::VectorXd& du, double enough = 0.0);
+
   /// FrontLu::use_team
   void use_team(WorkerTeam* team) { matrix_.use_team(team); }
 
@@ -44,8 +50,7 @@ class NewtonSystem {
                     Impulses& dr);
 
   // The dynamics form:
-  std::vector<Eigen::Matrix3d> gain_;    ///< E = B^-1 by_u per contact
-  std::vector<Eigen::Vector3d> source_;  ///< B^-1 f
+  std::vector<Eigen::Matrix3d> gain_;  ///< B^-1 by_u per contact
   BodyMatrix matrix_;
   Eigen::VectorXd right_, dv_, u_;
   // A stored W:

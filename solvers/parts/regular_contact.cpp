@@ -5,17 +5,17 @@
 
 namespace ballast {
 
-RegularStep regular_step(const UnitMassContacts::Contact& contact, double epsilon,
-                         const Eigen::Vector3d& r, const Eigen::Vector3d& u) {
+RegularStep regular_step(double mu, double rho, double epsilon, const Eigen::Vector3d& r,
+                         const Eigen::Vector3d& u) {
   RegularStep step;
-  const double rho = 1.0 / contact.lambda_max, mu = contact.friction, stiffness = rho / epsilon;
+  const double stiffness = rho / epsilon;
   const Eigen::Vector3d z = r - rho * u;
   // Open: the impulse goes to zero.
   if (z[0] <= 0.0) {
     step.source = -r;
     return step;
   }
-  if (contact.half_line) {
+  if (mu == 0.0) {  // a half-line
     step.source = Eigen::Vector3d(-u[0] * stiffness, -r[1], -r[2]);
     step.gain(0, 0) = stiffness;
     step.status = ContactStatus::stick;

@@ -2,7 +2,6 @@
 // Coulomb's law of one contact, regularised, and linearised for a Newton step that knows statuses.
 
 #include "problems/algebra/friction_cone.hpp"
-#include "solvers/parts/unit_mass_contacts.hpp"
 
 namespace ballast {
 
@@ -15,13 +14,14 @@ struct RegularStep {
 
 /// The law at the impulse `r`, where `u` is
 ///
-///   u~ = u + epsilon_c (r - centre),   epsilon_c = epsilon lambda_max(W_cc)
+///   u~ = u + epsilon_c (r - centre),   epsilon_c = epsilon / rho
 ///
 /// Near the centre it is a law with compliance epsilon_c, and solvable whatever W's rank; where r
-/// is the centre it is the law itself. The status comes from z = r - u~ / lambda_max, the contact's
-/// natural scale: with 1 / epsilon_c in its place hundreds of contacts would change at once. Alart,
-/// Curnier 1991, with the disc mu r_N for the tangential impulse. epsilon > 0, and lambda_max > 0.
-RegularStep regular_step(const UnitMassContacts::Contact& contact, double epsilon,
-                         const Eigen::Vector3d& r, const Eigen::Vector3d& u);
+/// is the centre it is the law itself. The status comes from z = r - rho u~, rho = 1 /
+/// lambda_max(W_cc) being the contact's natural scale: with 1 / epsilon_c in its place hundreds of
+/// contacts would change at once. Alart, Curnier 1991, with the disc mu r_N for the tangential
+/// impulse. epsilon > 0, and rho > 0. A contact of one row is one without friction.
+RegularStep regular_step(double mu, double rho, double epsilon, const Eigen::Vector3d& r,
+                         const Eigen::Vector3d& u);
 
 }  // namespace ballast

@@ -81,6 +81,30 @@ TEST_CASE("a Newton system is solved in both forms, for one set of blocks after 
   }
 }
 
+TEST_CASE("contacts like springs: dr = source - gain du with du = W dr", "[factors]") {
+  for (const FrictionProblem& problem :
+       {make_known_solution({.contacts = 80}).problem, oracle::mixed_problem()}) {
+    const std::vector<ContactLinearisation> blocks = some_blocks(problem, 0.4);
+    ContactOperator op;
+    op.prepare(problem);
+    NewtonSystem system;
+    system.prepare(op);
+    std::vector<Eigen::Matrix3d> gain;
+    for (const ContactLinearisation& block : blocks) gain.push_back(block.by_u);
+    const Impulses source = Impulses::LinSpaced(problem.row_count(), -1.0, 3.0);
+    for (const double enough : {0.0, 1e-10}) {
+      Impulses dr = source;
+      Eigen::VectorXd du;
+      REQUIRE(system.solve_springs(op, gain, dr, du, enough));
+      CHECK((oracle::dense_delassus(problem) * dr - du).norm() <= 1e-9 * du.norm());
+      for (int c = 0; c < problem.contact_count(); ++c) {
+        const Eigen::Vector3d left = op.at(source, c) - gain[c] * op.at(du, c) - op.at(dr, c);
+        CHECK(left.head(problem.contact_rows(c)).norm() <= 1e-12 * source.norm());
+      }
+    }
+  }
+}
+
 TEST_CASE("Newton's system of a stored W: few rows, nearly full, sparse, one row, unsymmetric",
           "[factors]") {
   FrictionProblem unsymmetric =
