@@ -17,9 +17,13 @@ namespace {
 /// every array. They are a share of the work, and stay in the first cache between the passes.
 struct JudgeBlock {
   static constexpr int size = 64;
+  static constexpr int lanes = 8;  ///< places are worked on so many at a time
 
-  // What is given. Contacts of one row have zeros in the other rows; a place without a contact may
-  // hold anything.
+  /// The places up to which `contacts` are worked on.
+  static int places(int contacts) { return (contacts + lanes - 1) / lanes * lanes; }
+
+  // What is given. Contacts of one row have zeros in the other rows, and so has a place without a
+  // contact.
   alignas(64) double r[3][size];        ///< [N s]
   double u[3][size], q[3][size];        ///< [m/s]
   double nn[size], tn[size], sn[size];  ///< W_cc [1/kg]
@@ -34,6 +38,11 @@ struct JudgeBlock {
     tt[k] = w(1, 1);
     st[k] = w(2, 1);
     ss[k] = w(2, 2);
+  }
+  /// Zeros into place k.
+  void clear(int k) {
+    for (int i = 0; i < 3; ++i) r[i][k] = u[i][k] = q[i][k] = 0.0;
+    mu[k] = nn[k] = tn[k] = sn[k] = tt[k] = st[k] = ss[k] = 0.0;
   }
 
   // What is found.
@@ -102,13 +111,13 @@ BALLAST_IN_LOOP double eigenvalue(double nn, double tn, double sn, double tt, do
   return off == 0.0 ? three : full;
 }
 
-BALLAST_FOR_EACH_CPU void find_scales(JudgeBlock& b) {
-  for (int k = 0; k < JudgeBlock::size; ++k)
+BALLAST_FOR_EACH_CPU void find_scales(JudgeBlock& b, int places) {
+  for (int k = 0; k < places; ++k)
     b.lambda[k] = eigenvalue(b.nn[k], b.tn[k], b.sn[k], b.tt[k], b.st[k], b.ss[k]);
 }
 
-BALLAST_FOR_EACH_CPU void find_measures(JudgeBlock& b) {
-  for (int k = 0; k < JudgeBlock::size; ++k) {
+BALLAST_FOR_EACH_CPU void find_measures(JudgeBlock& b, int places) {
+  for (int k = 0; k < places; ++k) {
     const Triple r{b.r[0][k], b.r[1][k], b.r[2][k]}, u{b.u[0][k], b.u[1][k], b.u[2][k]};
     const Triple q{b.q[0][k], b.q[1][k], b.q[2][k]};
     const double mu = b.mu[k], lambda = b.lambda[k];
@@ -288,17 +297,18 @@ void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
 ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem, const Impulses& r,
                                                  int begin, int end) {
   JudgeBlock block;
-  if (end - begin < JudgeBlock::size) block = {};
+  const int contacts = end - begin, places = JudgeBlock::places(contacts);
+  for (int k = contacts; k < places; ++k) block.clear(k);
   if (problem.has_dynamics)
     look_at_rows(problem, roots_, v_, begin, end, q_, u_, block);
   else
     for (int c = begin; c < end; ++c) block.take(c - begin, diagonal_[c]);
   lay_out(problem, r, u_, q_, begin, end, block);
-  find_scales(block);
-  find_measures(block);
+  find_scales(block, places);
+  find_measures(block, places);
   Share share;
   share.min_normal_velocity = infinity;
-  for (int k = 0; k < end - begin; ++k) {
+  for (int k = 0; k < contacts; ++k) {
     const double value = block.scaled_map[k], approach = block.approach[k];
     const double outside = block.lambda[k] * block.outside[k], unbalanced = block.unbalanced[k];
     if (block.lambda[k] > 0.0) {

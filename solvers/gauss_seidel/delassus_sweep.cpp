@@ -1,7 +1,6 @@
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
 
 #include "problems/algebra/contact_error.hpp"
-#include "problems/algebra/delassus.hpp"
 
 namespace ballast {
 
@@ -15,35 +14,42 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
 
   // The contacts that W couples with each, in the order of their first entries, and the blocks.
   block_begin_.assign(1, 0);
+  block_begin_.reserve(contacts + 1);
   block_contact_.clear();
   blocks_.clear();
+  const int full_blocks = static_cast<int>(w.nonZeros()) / 9 + contacts;
+  block_contact_.reserve(full_blocks);
+  blocks_.reserve(9 * full_blocks);
+  contacts_.assign(contacts, {});
+  q_.setZero(3 * contacts);
+  r_.setZero(3 * contacts);
   std::vector<int> slot(contacts, -1);  // of a neighbour in the block row at hand
   for (int c = 0; c < contacts; ++c) {
     for (int i = 0; i < problem.contact_rows(c); ++i)
-      for (SparseRows::InnerIterator entry(w, problem.row_begin[c] + i); entry; ++entry) {
+      for (SparseRows::InnerIterator entry(w, problem.row_begin[c] + i); entry;) {
         const int other = contact_of_row[entry.col()];
+        const int first = problem.row_begin[other], rows = problem.contact_rows(other);
         if (slot[other] < block_begin_.back()) {
           slot[other] = static_cast<int>(block_contact_.size());
           block_contact_.push_back(other);
           blocks_.resize(blocks_.size() + 9, 0.0);
         }
-        const int j = static_cast<int>(entry.col()) - problem.row_begin[other];
-        blocks_[9 * slot[other] + 3 * j + i] = entry.value();
+        double* block = blocks_.data() + 9 * slot[other];
+        for (; entry; ++entry) {
+          const int j = static_cast<int>(entry.col()) - first;
+          if (j < 0 || j >= rows) break;
+          block[3 * j + i] = entry.value();
+        }
       }
-    block_begin_.push_back(static_cast<int>(block_contact_.size()));
-  }
-
-  // Each contact's own block, in the coordinates in which it is solved.
-  std::vector<Eigen::Matrix3d> diagonal;
-  delassus_diagonal(problem, diagonal);
-  contacts_.assign(contacts, {});
-  q_.setZero(3 * contacts);
-  r_.setZero(3 * contacts);
-  for (int c = 0; c < contacts; ++c) {
-    make_principal(diagonal[c], problem.friction[c], contacts_[c].local, contacts_[c].turn);
-    contacts_[c].lambda_max = largest_eigenvalue(diagonal[c]);
+    // Its own block, in the coordinates in which it is solved.
+    Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+    if (slot[c] >= block_begin_.back()) own = Eigen::Matrix3d(blocks_.data() + 9 * slot[c]);
+    const Eigen::Matrix3d symmetric = 0.5 * (own + own.transpose());
+    make_principal(symmetric, problem.friction[c], contacts_[c].local, contacts_[c].turn);
+    contacts_[c].lambda_max = largest_eigenvalue(symmetric);
     for (int i = 0; i < problem.contact_rows(c); ++i)
       q_[3 * c + i] = problem.delassus.q[problem.row_begin[c] + i];
+    block_begin_.push_back(static_cast<int>(block_contact_.size()));
   }
 }
 
@@ -89,8 +95,8 @@ void DelassusSweep::start_search() {
 }
 
 double DelassusSweep::sweep_along(SearchStep step) {
-  const Eigen::VectorXd change = r_ - before_;
-  step.move(change, direction_, r_);
+  for (Eigen::Index i = 0; i < r_.size(); ++i)
+    step.move(/*change=*/r_[i] - before_[i], direction_[i], r_[i]);
   before_ = r_;
   sweep();
   return (r_ - before_).squaredNorm();

@@ -34,7 +34,8 @@ bool is_grain_mass(const double* mass) {
 }  // namespace
 
 bool WideSweep::prepare(const FrictionProblem& problem) {
-  if (!sort_bodies(problem.dynamics) || !group_contacts(problem)) return false;
+  if (!sort_bodies(problem.dynamics) || !may_fill_lanes(problem.dynamics)) return false;
+  if (!group_contacts(problem)) return false;
   factor_masses(problem.dynamics, roots_);
   bool made = true;
   for_kinds(
@@ -56,6 +57,21 @@ bool WideSweep::sort_bodies(const DynamicsForm& dynamics) {
       return false;
   }
   return true;
+}
+
+/// False: however contacts are grouped, too many lanes stay empty. Contacts of one grain never
+/// share a group, so there are as many groups as some grain has contacts, at least.
+bool WideSweep::may_fill_lanes(const DynamicsForm& dynamics) {
+  contacts_of_body_.assign(is_wall_.size(), 0);
+  int contacts = 0, most = 0;
+  for (size_t c = 0; c < dynamics.body_a.size(); ++c) {
+    const int a = dynamics.body_a[c], b = dynamics.body_b[c];
+    if ((a >= 0 && is_wall_[a]) || (b >= 0 && is_wall_[b]) || (a < 0 && b < 0)) continue;
+    ++contacts;
+    if (a >= 0) most = std::max(most, ++contacts_of_body_[a]);
+    if (b >= 0) most = std::max(most, ++contacts_of_body_[b]);
+  }
+  return contacts >= least_fill * group_lanes * most;
 }
 
 /// The rows of a slab's bodies follow each other, those that interfaces meet first; and so that

@@ -97,6 +97,7 @@ class WideSweep final : public ContactSweep {
   }
 
   bool sort_bodies(const DynamicsForm& dynamics);
+  bool may_fill_lanes(const DynamicsForm& dynamics);
   void place_bodies(const DynamicsForm& dynamics);
   bool group_contacts(const FrictionProblem& problem);
   bool group_part(const FrictionProblem& problem, const SweepPlan::Part& part, Part& made);
@@ -156,9 +157,10 @@ class WideSweep final : public ContactSweep {
   const GroupKernels* kernels_ = &group_kernels();
 
   std::vector<MassRoot> roots_;
-  std::vector<char> is_wall_;     ///< of each body
-  std::vector<char> is_shared_;   ///< of each body: met by an interface
-  std::vector<int> row_of_body_;  ///< slab by slab, so that threads share no line
+  std::vector<char> is_wall_;          ///< of each body
+  std::vector<char> is_shared_;        ///< of each body: met by an interface
+  std::vector<int> contacts_of_body_;  ///< room for may_fill_lanes()
+  std::vector<int> row_of_body_;       ///< slab by slab, so that threads share no line
   int rows_ = 0;
   ContactGroups grouping_;
   std::vector<int> chosen_, walls_, grain_a_, grain_b_;  ///< room for group_part()
