@@ -17,13 +17,10 @@ namespace {
 /// every array. They are a share of the work, and stay in the first cache between the passes.
 struct JudgeBlock {
   static constexpr int size = 64;
-  static constexpr int lanes = 8;  ///< places are worked on so many at a time
+  /// The places that are worked on for so many contacts: eights.
+  static int places(int contacts) { return (contacts + 7) / 8 * 8; }
 
-  /// The places up to which `contacts` are worked on.
-  static int places(int contacts) { return (contacts + lanes - 1) / lanes * lanes; }
-
-  // What is given. Contacts of one row have zeros in the other rows, and so has a place without a
-  // contact.
+  // What is given. The rows that a contact has not, and places without a contact, hold zeros.
   alignas(64) double r[3][size];        ///< [N s]
   double u[3][size], q[3][size];        ///< [m/s]
   double nn[size], tn[size], sn[size];  ///< W_cc [1/kg]
@@ -118,8 +115,8 @@ BALLAST_FOR_EACH_CPU void find_scales(JudgeBlock& b, int places) {
 
 BALLAST_FOR_EACH_CPU void find_measures(JudgeBlock& b, int places) {
   for (int k = 0; k < places; ++k) {
-    const Triple r{b.r[0][k], b.r[1][k], b.r[2][k]}, u{b.u[0][k], b.u[1][k], b.u[2][k]};
-    const Triple q{b.q[0][k], b.q[1][k], b.q[2][k]};
+    const auto triple = [k](const auto& x) { return Triple{x[0][k], x[1][k], x[2][k]}; };
+    const Triple r = triple(b.r), u = triple(b.u), q = triple(b.q);
     const double mu = b.mu[k], lambda = b.lambda[k];
     const double inverse = 1.0 / lambda, rho = lambda > 0.0 ? inverse : 0.0;
     const Triple modified{u.n + mu * tangential(u), u.t, u.s};
@@ -456,41 +453,39 @@ std::vector<double> errors_by_contact(const FrictionProblem& problem, const Impu
   std::vector<double> errors;
   for (int c = 0; c < problem.contact_count(); ++c) {
     const double lambda_max = largest_eigenvalue(diagonal[c]);
-    const double error = lambda_max > 0.0
-                             ? ContactJudge::scaled_natural_map(rows_of_contact(problem, r, c),
-                                                                rows_of_contact(problem, u, c),
-                                                                problem.friction[c], lambda_max)
-                             : 0.0;
-    errors.push_back(std::isfinite(error) ? error : infinity);
+    double& error = errors.emplace_back(0.0);
+    if (lambda_max > 0.0)
+      error = ContactJudge::scaled_natural_map(rows_of_contact(problem, r, c),
+                                               rows_of_contact(problem, u, c), problem.friction[c],
+                                               lambda_max);
+    if (!std::isfinite(error)) error = infinity;
   }
   return errors;
 }
 
 int driven_wall(const FrictionProblem& problem) {
-  if (!problem.has_dynamics) return -1;
-  for (int b = 0; b < problem.dynamics.body_count(); ++b)
+  for (int b = 0; problem.has_dynamics && b < problem.dynamics.body_count(); ++b)
     if (problem.dynamics.body_dofs(b) == 1) return b;
   return -1;
 }
 
 AnswerDistance answer_distance(const FrictionProblem& problem, const Impulses& answer,
                                const Impulses& solution, double velocity_scale) {
-  if (solution.size() == 0 && problem.row_count() > 0) return {};
+  AnswerDistance distance;
+  if (solution.size() == 0 && problem.row_count() > 0) return distance;
   Eigen::VectorXd u, exact, q;
   contact_velocity(problem, answer, u);
   contact_velocity(problem, solution, exact);
   free_contact_velocity(problem, q);
-  AnswerDistance distance;
-  const int contacts = problem.contact_count();
-  distance.contact_velocity = (u - exact).norm() / std::sqrt(std::max(1, contacts));
+  distance.contact_velocity = (u - exact).norm() / std::sqrt(std::max(1, problem.contact_count()));
   distance.body_impulse =
       std::sqrt(part_of((answer - solution).dot(u - exact), solution.dot(exact - q)));
   if (problem.has_dynamics) compare_bodies(problem, answer, solution, distance);
   distance.statuses = 0;
   std::vector<Eigen::Matrix3d> blocks;
   delassus_diagonal(problem, blocks);
-  for (int c = 0; c < contacts; ++c) {
-    const double lambda_max = largest_eigenvalue(blocks[static_cast<size_t>(c)]);
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const double lambda_max = largest_eigenvalue(blocks[c]);
     const auto status = [&](const Impulses& r, const Eigen::VectorXd& at) {
       return contact_status(rows_of_contact(problem, r, c), rows_of_contact(problem, at, c),
                             problem.friction[c], lambda_max);
