@@ -87,8 +87,10 @@ void Course::run(Solver& solver, const FrictionProblem& problem, int most_iterat
 
 void Course::offer(const Impulses& r, double error) {
   const double now = seconds();
-  // The other measure may be reached where the error is not the smallest.
-  const bool is_enough = budget_.fclib && !is_enough_ && budget_.fclib->reached(r, error);
+  // The other measure may be reached where the error is not the smallest. Of an error of zero it
+  // need not be asked.
+  const bool is_asked = budget_.fclib && !is_enough_ && error > 0.0;
+  const bool is_enough = is_asked && budget_.fclib->reached(r, error);
   if (is_enough || ((error < error_ || error_ == unknown) && !is_enough_)) {
     error_ = error;
     best_at_ = count_;
