@@ -227,7 +227,9 @@ class NewtonBurst final : public Solver {
   }
 
   /// Proximal-point steps by Newton alone: sweeps after a converged step would undo its long waves.
-  /// Ends where steps fail one after the other, or gain little for long.
+  /// Where steps gain little, as in jams, they drift: each goes on in the last one's direction, as
+  /// far as the compliance lets it. Sweeps then go further in less time. Ends where steps fail one
+  /// after the other, or gain little for long.
   void endgame(Course& course, NewtonIterate& at, double& error) {
     constexpr int most_failures = 4, most_slow_steps = 15;
     double epsilon = first_epsilon, halved = error;
@@ -242,7 +244,9 @@ class NewtonBurst final : public Solver {
         epsilon *= inner.steps <= 2 ? 0.2 : inner.steps <= 3 ? 0.4 : inner.steps <= 5 ? 0.7 : 1.0;
         epsilon = std::max(epsilon, smallest_epsilon);
         failures = 0;
+        const bool is_drifting = after > 0.7 * error;
         error = after;
+        if (is_drifting && !course.over()) go_along(course, at, before, error, inner.steps);
       } else if (after < 0.9 * error) {
         epsilon = raised(epsilon, 2.0);
         error = after;
@@ -256,6 +260,19 @@ class NewtonBurst final : public Solver {
       halved = error;
       slow = 0;
     }
+  }
+
+  /// Two steps more from `before` to `at`, and sweeps, which mend the statuses there, for a third
+  /// of the time of the step's Newton steps. Kept unless the error grows fourfold.
+  void go_along(Course& course, NewtonIterate& at, const NewtonIterate& before, double& error,
+                int newton_steps) {
+    NewtonIterate ahead = at;
+    ahead.r += 2.0 * (at.r - before.r);
+    const double sweeps = 0.3 * newton_steps * sweeps_of_step(problem_->contact_count());
+    const double there = burst(course, ahead, static_cast<int>(sweeps));
+    if (!(there < 4.0 * error)) return;
+    at = std::move(ahead);
+    error = there;
   }
 
   /// Newton steps on the law regularised around `at`, until the residual is a third of the error
