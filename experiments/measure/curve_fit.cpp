@@ -220,6 +220,22 @@ PooledError pooled_error(std::span<const std::vector<double>> groups) {
   return pooled;
 }
 
+VarianceRatio difference_of(std::span<const std::vector<double>> groups) {
+  const size_t kinds = groups.size(), samples = kinds > 0 ? groups.front().size() : 0;
+  if (kinds < 2 || samples < 2) return {};
+  Eigen::MatrixXd all(samples, kinds);
+  for (size_t k = 0; k < kinds; ++k) {
+    if (groups[k].size() != samples) return {};
+    all.col(k) = Eigen::Map<const Eigen::VectorXd>(groups[k].data(), samples);
+  }
+  all.colwise() -= Eigen::VectorXd(all.rowwise().mean());
+  const Eigen::RowVectorXd means = all.colwise().mean();
+  all.rowwise() -= means;
+  const double above = kinds - 1.0, below = above * (samples - 1.0);
+  const double between = samples * means.squaredNorm() / above, within = all.squaredNorm() / below;
+  return {between / within, f_p(between / within, above, below)};
+}
+
 void Points::add(double at, const SampleMean& mean) {
   x.push_back(at);
   y.push_back(mean.mean);

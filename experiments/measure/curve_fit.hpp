@@ -82,6 +82,15 @@ struct PooledError {
 };
 PooledError pooled_error(std::span<const std::vector<double>> groups);
 
+/// A ratio of two variances, and the probability of so large a one by chance.
+struct VarianceRatio {
+  double ratio = not_known, p = not_known;
+};
+/// Of samples that were measured in every group (value s of each group is sample s): do the groups
+/// differ by more than the samples scatter when each one's own mean is taken out? F and its p; NaN
+/// where a group lacks a sample.
+VarianceRatio difference_of(std::span<const std::vector<double>> groups);
+
 /// Measured points: means over samples.
 struct Points {
   std::vector<double> x, y;
@@ -103,10 +112,6 @@ struct PowerFit {
 /// Points that are not finite and positive are left out.
 PowerFit fit_power(std::span<const double> x, std::span<const double> y);
 
-/// A ratio of two variances, and the probability of so large a one by chance.
-struct VarianceRatio {
-  double ratio = not_known, p = not_known;
-};
 /// How far a law misses points: chi^2 over its degrees of freedom, and the p of so large a misfit
 /// where the law holds. Squared residuals of the logarithms in units of the points' squared
 /// relative standard errors. About 1: the law holds within the scatter. Much more: the points leave

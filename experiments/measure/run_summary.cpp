@@ -112,6 +112,9 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
   };
   compaction.rate = rate(paper_window);
   compaction.rate_common = rate(common_window);
+  compaction.rate_first = rate(first_second);
+  if (steps.back().time >= late_window.end - 0.25 * facts.step)
+    compaction.rate_late = rate(late_window);
   return compaction;
 }
 

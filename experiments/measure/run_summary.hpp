@@ -144,6 +144,8 @@ struct TimeWindow {
 /// within the same absolute time for all frequencies.
 inline constexpr TimeWindow paper_window{0.2, 1e30};
 inline constexpr TimeWindow common_window{0.4, 1.0};
+/// The paper's window of a run of 1 s, and a later one of the same length for all frequencies.
+inline constexpr TimeWindow first_second{0.2, 1.0}, late_window{0.5, 1.5};
 
 /// The solid fraction rho and how it grows (paper, sec. 5, Eq. 4, Figs. 12 and 13).
 struct Compaction {
@@ -155,6 +157,8 @@ struct Compaction {
   double relative_gain = not_known;  ///< Delta rho_1 / rho_0
   double rate = not_known;           ///< Eq. 4 over paper_window [1/s]
   double rate_common = not_known;    ///< Eq. 4 over common_window [1/s]
+  double rate_first = not_known;     ///< Eq. 4 over first_second [1/s]
+  double rate_late = not_known;      ///< Eq. 4 over late_window [1/s]; NaN of a shorter run
 };
 
 struct RunSummary {

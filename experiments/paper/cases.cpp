@@ -69,6 +69,17 @@ const CaseTable case_tables[] = {
      "frequency",
      "frequency",
      true},
+    {"preparation",
+     {{"lid pressed, μ 0.4",
+       "preparation lid_pressure=1 deposit_friction=0.4; reading frequency>4"},
+      {"lid pressed, μ 0.8", "preparation lid_pressure=1 deposit_friction=0.8"},
+      {"a fifth of the pressure, μ 0.4", "preparation lid_pressure=0.2 deposit_friction=0.4"},
+      {"a fifth of the pressure, μ 0.8", "preparation lid_pressure=0.2 deposit_friction=0.8"},
+      {"lid placed, μ 0.4", "preparation name~lid lid_pressure=0 deposit_friction=0.4"},
+      {"lid placed, μ 0.8", "preparation lid_pressure=0 deposit_friction=0.8"},
+      {"a shorter fall, lid placed, μ 0.4", "preparation name~fall"}},
+     "frequency",
+     "frequency"},
     {"shapes",
      {{"as the campaign’s",
        "shapes name~base; deposits lid_pressure>0 deposit_friction=0.4 iterations_most=200"},
@@ -224,11 +235,41 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
   return std::isfinite(fit.exponent) ? found(fit, misfit_of(fit, points).p) : Found{};
 }
 
-void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
+/// The paper's numbers in every case, each with its verdict; how many each meets is a finding.
+void add_numbers(const std::vector<Case>& cases, PaperSection& section) {
+  page::Text heads;
+  for (const PaperNumber& number : paper_numbers)
+    add_to_list(heads, page::marked(number.name), " || ");
+  page::Table table = page::words_table("paper_numbers", {{"columns", heads}});
+  std::vector<page::Text> asked{"the paper"};
+  for (const PaperNumber& number : paper_numbers) asked.push_back(words_of(number.range));
+  table.rows.push_back(asked);
+  for (const Case& row : cases) {
+    table.rows.push_back({row.name});
+    int met = 0;
+    for (const PaperNumber& number : paper_numbers) {
+      const Found seen = found_of(number, row.groups);
+      const Agreement verdict = agreement_of(number.range, seen);
+      met += verdict == Agreement::agrees || verdict == Agreement::partly;
+      table.rows.back().push_back(words_of(seen) + ": " + word_of(verdict));
+    }
+    section.report(section.id + ".met", {{"case", row.name},
+                                         {"met", std::to_string(met)},
+                                         {"all", std::to_string(std::size(paper_numbers))}});
+  }
+  section.add(table);
+}
+
+std::vector<Case> cases_of(PaperData& data, const CaseTable& what) {
   std::vector<Case> cases;
   for (const auto& [name, rows] : what.cases)
     if (Groups groups = data.groups(rows, what.along); !groups.empty())
       cases.push_back({name, std::move(groups)});
+  return cases;
+}
+
+void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
+  const std::vector<Case> cases = cases_of(data, what);
   if (cases.empty()) return;
   section.add(stage_table(cases, unit_behind(what.along)));
   if (!what.exponent_along.empty()) add_exponents(what, cases, section);
@@ -271,22 +312,12 @@ void fill_reading(PaperData& data, PaperSection& section) {
   // only frequencies that both scenes were driven at
   Groups base = data.groups("frequency; slowest", "frequency");
   std::erase_if(base, [&](const Group& group) { return !at(reading, group.value); });
-  page::Table table = page::words_table("reading.table");
-  int agree[2] = {0, 0};
-  for (const PaperNumber& number : paper_numbers) {
-    table.rows.push_back({page::marked(number.name), words_of(number.range)});
-    for (const int scene : {0, 1}) {
-      const Found seen = found_of(number, scene == 0 ? base : reading);
-      const Agreement verdict = agreement_of(number.range, seen);
-      agree[scene] += verdict == Agreement::agrees || verdict == Agreement::partly;
-      table.rows.back().push_back(words_of(seen));
-      table.rows.back().push_back(word_of(verdict));
-    }
-  }
-  section.add(table);
-  section.report("reading.claim", {{"base", std::to_string(agree[0])},
-                                   {"reading", std::to_string(agree[1])},
-                                   {"all", std::to_string(table.rows.size())}});
+  add_numbers({{"vibrated_box", base}, {"vibrated_box_paper", reading}}, section);
+}
+
+void fill_preparation(PaperData& data, PaperSection& section) {
+  for (const CaseTable& what : case_tables)
+    if (section.id == what.section) add_numbers(cases_of(data, what), section);
 }
 
 }  // namespace ballast

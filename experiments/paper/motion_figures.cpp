@@ -417,4 +417,29 @@ void fill_rates(PaperData& data, PaperSection& section) {
   add_falling_branch(groups, section);
 }
 
+void fill_compaction(PaperData& data, PaperSection& section) {
+  const Groups groups = data.groups("compaction", "frequency");
+  Panel panel = frequency_panel("compaction rate  *η*  (1/s)");
+  for (const auto& [title, rate, ink, shape] :
+       {std::tuple("0.2–1 s", "rate_first", Ink::blue, MarkShape::circle),
+        {"0.5–1.5 s", "rate_late", Ink::vermilion, MarkShape::square},
+        {"0.2 s to the end", "rate", Ink::green, MarkShape::diamond}}) {
+    const Points curve = points_of(groups, "frequency", rate);
+    if (curve.x.size() < 2) return;
+    panel.curves.push_back(curve_of(curve, title, ink, shape));
+    std::vector<std::vector<double>> all, fast;
+    for (const Group& group : groups) {
+      all.push_back(group.values(rate));
+      if (group.value >= 5.0) fast.push_back(all.back());
+    }
+    const auto most = std::ranges::max_element(curve.y);
+    section.report("compaction.claim", {{"window", title},
+                                        {"peak", page::number(curve.x[most - curve.y.begin()])},
+                                        {"differ", words_of(difference_of(all), "F")},
+                                        {"differ_fast", words_of(difference_of(fast), "F")}});
+  }
+  section.draw("compaction", {.height = 480, .panels = {panel}},
+               {{"samples", std::to_string(groups.front().samples.size())}});
+}
+
 }  // namespace ballast

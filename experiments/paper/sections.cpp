@@ -144,6 +144,8 @@ std::span<const ReportSection> paper_sections() {
       {"replicas", {"replicas"}, fill_replicas},
       {"tight", {"tightest", "rule", "frequency"}},
       {"deposits", {"deposits"}},
+      {"preparation", {"preparation", "reading"}, fill_preparation},
+      {"compaction", {"compaction"}, fill_compaction},
       {"loads", {"loads"}},
       {"shapes", {"shapes"}},
       {"sizes", {"sizes"}},

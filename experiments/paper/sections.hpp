@@ -162,14 +162,16 @@ void add_cases(PaperData& data, PaperSection& section);
 void fill_curve(PaperData& data, PaperSection& section);  ///< all that is varied on one curve
 void fill_rates(PaperData& data, PaperSection& section);  ///< Fig. 13 (Eqs. 4 and 5)
 void fill_replicas(PaperData& data, PaperSection& section);
-void fill_reading(PaperData& data, PaperSection& section);     ///< both scenes beside the paper
-void fill_motion(PaperData& data, PaperSection& section);      ///< Fig. 3: x(t), first contraction
-void fill_forces(PaperData& data, PaperSection& section);      ///< Fig. 4: f_g(x), the jam
-void fill_model(PaperData& data, PaperSection& section);       ///< Fig. 5: Eq. 2 integrated
-void fill_velocities(PaperData& data, PaperSection& section);  ///< Fig. 6: grains, the roll
-void fill_chains(PaperData& data, PaperSection& section);      ///< Fig. 7: chains, stress
-void fill_portraits(PaperData& data, PaperSection& section);   ///< Fig. 8: phase portraits
-void fill_density(PaperData& data, PaperSection& section);     ///< Fig. 12: solid fraction
+void fill_reading(PaperData& data, PaperSection& section);      ///< both scenes beside the paper
+void fill_preparation(PaperData& data, PaperSection& section);  ///< deposits beside the paper
+void fill_compaction(PaperData& data, PaperSection& section);   ///< the rate by three windows
+void fill_motion(PaperData& data, PaperSection& section);       ///< Fig. 3: x(t), first contraction
+void fill_forces(PaperData& data, PaperSection& section);       ///< Fig. 4: f_g(x), the jam
+void fill_model(PaperData& data, PaperSection& section);        ///< Fig. 5: Eq. 2 integrated
+void fill_velocities(PaperData& data, PaperSection& section);   ///< Fig. 6: grains, the roll
+void fill_chains(PaperData& data, PaperSection& section);       ///< Fig. 7: chains, stress
+void fill_portraits(PaperData& data, PaperSection& section);    ///< Fig. 8: phase portraits
+void fill_density(PaperData& data, PaperSection& section);      ///< Fig. 12: solid fraction
 void fill_packing(PaperData& data, PaperSection& section);  ///< how contact forces are distributed
 
 /// Writes the report of these sections into `folder`, each file beside and renamed. What gnuplot

@@ -303,6 +303,11 @@ TEST_CASE("Student's own pairs: the extra hours of sleep of ten patients") {
   CHECK(paired.p() == Approx(0.002833).epsilon(1e-3));
   CHECK(paired.half_width() == Approx(2.262 * paired.error).epsilon(1e-3));
   CHECK(std::isnan(sample_mean(std::vector<double>{1.0}).p()));
+  // of two groups F is t^2
+  const VarianceRatio between = difference_of(std::vector{a, b});
+  CHECK(between.ratio == Approx(4.0621 * 4.0621).epsilon(1e-4));
+  CHECK(between.p == Approx(0.002833).epsilon(1e-3));
+  CHECK(std::isnan(difference_of(std::vector{a, {1.0, 2.0}}).ratio));
   CHECK(std::isnan(sample_mean(std::vector<double>{}).mean));
   const SampleMean three = sample_mean(std::vector<double>{1.0, 2.0, 3.0, not_known});
   CHECK(three.samples == 3);

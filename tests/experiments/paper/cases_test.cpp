@@ -126,7 +126,21 @@ TEST_CASE("every other table of cases has its rows") {
   CHECK(found_of(tight, "exponents of ν: error").starts_with("Δx_max −1.80"));
   const PaperSection reading = section_named(data, "reading");
   REQUIRE(reading.tables.size() == 2);
-  CHECK(plain_words(reading.tables[0].rows[0][2]).starts_with("−1.80"));
+  CHECK(plain_words(reading.tables[0].rows[1][1]).starts_with("−1.80"));
+}
+
+TEST_CASE("each preparation stands beside the paper's numbers, each window of compaction alone") {
+  const TemporaryFolder folder;
+  PaperData data = written(folder.path(), {"preparation", "compaction"}, steep_law(0.2), is_of_two);
+  const PaperSection preparation = section_named(data, "preparation");
+  // the paper, then three pressures by two frictions and the shorter fall
+  REQUIRE(preparation.tables[0].rows.size() == 8);
+  CHECK(plain_words(preparation.tables[0].rows[7][1]).starts_with("−1.80"));
+  CHECK(found_of(preparation, "a shorter fall, lid placed, μ 0.4").starts_with("of 5 numbers"));
+  const PaperSection compaction = section_named(data, "compaction");
+  REQUIRE(compaction.figures.size() == 1);
+  CHECK(compaction.figures[0].plot.panels[0].curves.size() == 3);
+  CHECK(found_of(compaction, "compaction rate, 0.5–1.5 s").starts_with("largest at "));
 }
 
 TEST_CASE("C against its theory: the force that the grains push with gives it, point by point") {
