@@ -9,7 +9,7 @@
 #include "experiments/box/packing.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/measure/run_data.hpp"
-#include "experiments/paper/sections.hpp"
+#include "experiments/paper/article.hpp"
 #include "experiments/plans/plan_runner.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
@@ -186,11 +186,13 @@ ExitCode run_stages(const PaperData& data, const PaperOptions& options) {
 }
 
 ExitCode reproduce(PaperOptions options) {
+  const std::vector<std::string> without_runs{"plan", "report", "article"};
   const std::vector<PlannedRun> campaign = read_campaign(options.campaign);
   const std::vector<std::string> targets = paper_targets(campaign);
   const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
-  if (!is_target && options.target != "plan" && options.target != "report")
-    throw UsageError("paper: '" + options.target + "' is none of plan, report, " + joined(targets));
+  if (!is_target && std::ranges::find(without_runs, options.target) == without_runs.end())
+    throw UsageError("paper: '" + options.target + "' is none of " + joined(without_runs) + ", " +
+                     joined(targets));
   if (options.output.empty()) options.output = options.running.results / "report";
   const PaperData known = data_of(campaign, options);
   if (known.foreign() > 0)
@@ -199,6 +201,12 @@ ExitCode reproduce(PaperOptions options) {
   if (options.target == "plan") {
     print_plan(known);
     return ExitCode::ok;
+  }
+  if (options.target == "article") {
+    PaperData data = data_of(campaign, options);
+    const ExitCode code = write_article(data, options.output, std::cerr);
+    std::cout << "article in " << (options.output / "article.md").string() << std::endl;
+    return code;
   }
   require_own_folder(options.running.results, {"runs", "packings", "report"});
   // "report" draws what is there; every other target makes its runs first
@@ -298,7 +306,7 @@ Command paper_command() {
           "Reproduces the paper: runs, figures 3 to 13, one report",
           {{"target", &options->target,
             "What: all; a section (fig3 to fig13, curve, box ...) or a stage of the campaign; plan "
-            "(lists the runs); report (draws what is there, runs nothing)",
+            "(lists the runs); report, article (draw what is there, run nothing)",
             required},
            {"--jobs N", &running.jobs, "Runs at a time", between(1, 4096)},
            {"--results DIR", &running.results, "The folder of runs"},

@@ -201,6 +201,7 @@ std::vector<PaperSection> make_sections(PaperData& data, const std::string& targ
 }
 
 void PaperSection::draw(const std::string& name, Figure plot, const page::Values& values) {
+  keep(name, values);
   // "fig9" is kept as fig09, so that files sort by number
   const bool has_one_digit = name.starts_with("fig") && name.size() == 4;
   const std::string file = has_one_digit ? "fig0" + name.substr(3) : name;
@@ -215,13 +216,20 @@ void PaperSection::draw(const std::string& name, Figure plot, const page::Values
 
 void PaperSection::claim(const std::string& name, const page::Values& values,
                          const PaperRange& range, const Found& found) {
+  keep(name, values);
+  numbers[name + ".found"] = words_of(found);
   const std::vector<page::Text> cells = parts_of(page::words(name, values), "||");
   claims.push_back({cells.at(0), cells.at(1), word_of(agreement_of(range, found)), cells.at(2),
                     words_of(range), words_of(found)});
 }
 
 void PaperSection::report(const std::string& name, const page::Values& values) {
+  keep(name, values);
   findings.push_back(parts_of(page::words(name, values), "||"));
+}
+
+void PaperSection::keep(const std::string& name, const page::Values& values) {
+  for (const auto& [key, value] : values) numbers[name + "." + key] = value;
 }
 
 void PaperSection::add(page::Table table) {

@@ -79,6 +79,8 @@ struct PaperSection {
   /// Rows of the report's first tables: words("paper.agreement"), and words("paper.beyond") for
   /// what is beyond the paper, where there is nothing to agree with.
   std::vector<std::vector<page::Text>> claims = {}, findings = {};
+  /// Every value of its figures, claims and findings by "name.key": what the article cites.
+  page::Values numbers = {};
 
   /// A figure with its captions: words(name.paper) and words(name.found). Unless `plot` has one,
   /// its title is words(name.title); its files are called `name`, with two digits for "fig9".
@@ -89,6 +91,7 @@ struct PaperSection {
              const Found& found);
   /// A finding. words(name) is "what || what was measured".
   void report(const std::string& name, const page::Values& values);
+  void keep(const std::string& name, const page::Values& values);
   /// A table, unless it has no rows.
   void add(page::Table table);
 };

@@ -1,0 +1,93 @@
+#include "experiments/paper/article.hpp"
+
+#include <ostream>
+
+#include "platform/atomic_file.hpp"
+#include "platform/program.hpp"
+
+namespace ballast {
+
+std::string article_prose();  // article.md
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In the notation of Pandoc.
+std::string pandoc_of(const page::Text& text) {
+  std::string result;
+  for (const page::Span& span : text.spans) {
+    const char* mark = span.styles & page::superscript ? "^"
+                       : span.styles & page::subscript ? "~"
+                       : span.styles & page::symbol    ? "*"
+                                                       : "";
+    result += mark;
+    for (const char c : span.text) {
+      if (std::string_view("\\`*_~^$[]<>{}").find(c) != std::string_view::npos) result += '\\';
+      result += c;
+    }
+    result += mark;
+  }
+  return result;
+}
+
+/// The figures of the sections that the prose shows.
+std::vector<page::Picture> figures_in(std::string_view prose,
+                                      const std::vector<PaperSection>& sections) {
+  std::vector<page::Picture> shown;
+  for (const PaperSection& section : sections)
+    for (const page::Picture& figure : section.figures)
+      if (prose.find("(figures/" + figure.plot.name + ")") != std::string_view::npos)
+        shown.push_back(figure);
+  return shown;
+}
+
+/// Pandoc in `folder`, with the figures' files of one kind. False: it is missing or failed.
+bool typeset(const fs::path& folder, const std::string& suffix, std::vector<std::string> arguments,
+             std::ostream& notes) {
+  const std::string target = (folder / ("article." + suffix)).string();
+  arguments.insert(arguments.end(), {"--standalone", "--resource-path=" + folder.string(),
+                                     "--default-image-extension=svg", "--output=" + target,
+                                     (folder / "article.md").string()});
+  const ProgramResult result = run_program("pandoc", arguments, /*seconds=*/300.0);
+  if (result.succeeded()) return true;
+  notes << "ballast: " << target << " is not made: "
+        << (result.status == 127 ? "it needs what apt-packages-article.txt lists" : result.errors)
+        << std::endl;
+  return false;
+}
+
+}  // namespace
+
+std::string article_of(std::string_view prose, const page::Values& numbers) {
+  std::string result;
+  while (true) {
+    const size_t open = prose.find("{{"), close = prose.find("}}", open);
+    if (open == std::string_view::npos) return result.append(prose);
+    if (close == std::string_view::npos) throw Error("article.md: {{ without }}");
+    const std::string name(prose.substr(open + 2, close - open - 2));
+    const auto number = numbers.find(name);
+    if (number == numbers.end()) throw Error("article.md: the report has no number " + name);
+    result.append(prose.substr(0, open)).append(pandoc_of(number->second));
+    prose.remove_prefix(close + 2);
+  }
+}
+
+ExitCode write_article(PaperData& data, const fs::path& folder, std::ostream& notes) {
+  const std::vector<PaperSection> sections = make_sections(data, "all");
+  page::Values numbers;
+  for (const PaperSection& section : sections)
+    numbers.insert(section.numbers.begin(), section.numbers.end());
+  const std::string prose = article_prose(), text = article_of(prose, numbers);
+  page::Page pictures;
+  pictures.add({"figures", "", {}});
+  pictures.sections.back().add(figures_in(prose, sections));
+  create_folder(folder);
+  page::draw_pictures(pictures, folder, {.is_file_shown = true});
+  write_whole_file(folder / "article.md", text);
+  const bool html = typeset(folder, "html", {"--mathml", "--self-contained"}, notes),
+             pdf = typeset(folder, "pdf", {"--pdf-engine=xelatex"}, notes);
+  return html && pdf ? ExitCode::ok : ExitCode::backend_missing;
+}
+
+}  // namespace ballast
