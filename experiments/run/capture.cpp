@@ -81,11 +81,11 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
     captured.key.push_back(contact.feature);
     captured.id_a.push_back(contact.body_a);
     captured.id_b.push_back(contact.body_b);
-  }
-  // Row by row in the world frame: the normal from a to b, then the two tangents.
-  for (const Mat3& frame : stepper.assembler().frames())
+    // Row by row in the world frame: the normal from a to b, then the two tangents.
+    const Mat3 frame = contact_frame(contact.normal);
     for (int row = 0; row < 3; ++row)
       for (int axis = 0; axis < 3; ++axis) captured.frame.push_back(frame(row, axis));
+  }
   create_folder(folder_);
   write_captured(folder_ / printed("step_%07ld.hdf5", state.step), captured);
 }

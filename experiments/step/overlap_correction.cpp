@@ -64,7 +64,7 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
     // a fraction of the overlap goes; a point that is open or within the slop may close to the
     // slop, no further
     const double wanted = tolerated + (1.0 - spec_.fraction) * std::min(0.0, next_gap - tolerated);
-    rows_.push_back({c, wanted - next_gap, -1.0, 0.0});
+    rows_.push_back({wanted - next_gap, -1.0, 0.0});
   }
 
   // Projected Gauss-Seidel on displacements: pushes only push (>= 0), heavy bodies move less.
@@ -72,13 +72,14 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
   is_displaced_.assign(problem.dynamics.body_count(), 0);
   const auto displaced = [this](int body) { return body >= 0 && is_displaced_[body]; };
   for (int sweep = 0; sweep < spec_.sweeps; ++sweep) {
-    for (Row& row : rows_) {
+    for (int c = 0; c < problem.contact_count(); ++c) {
+      Row& row = rows_[c];
       // Of most points nothing is asked, and no neighbour has come nearer.
-      const int a = problem.dynamics.body_a[row.contact], b = problem.dynamics.body_b[row.contact];
+      const int a = problem.dynamics.body_a[c], b = problem.dynamics.body_b[c];
       if (row.target <= 0.0 && !displaced(a) && !displaced(b)) continue;
-      if (row.stiffness < 0.0) row.stiffness = stiffness_of(problem, row.contact);
+      if (row.stiffness < 0.0) row.stiffness = stiffness_of(problem, c);
       double moved = 0.0;
-      for_normal_row(problem, row.contact, [&](int dof, double coefficient) {
+      for_normal_row(problem, c, [&](int dof, double coefficient) {
         moved += coefficient * displacement_[dof];
       });
       // The push with which this row would move just as far as it is asked to, the others held.
@@ -88,7 +89,7 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, const Frictio
       row.push = push;
       for (const int body : {a, b})
         if (body >= 0) is_displaced_[body] = 1;
-      for_normal_row(problem, row.contact, [&](int dof, double coefficient) {
+      for_normal_row(problem, c, [&](int dof, double coefficient) {
         displacement_[dof] += inverse_mass_[dof] * coefficient * change;
       });
     }

@@ -39,8 +39,8 @@ class OverlapCorrection {
   std::vector<double> inverse_mass_;  // per unknown; 0 for driven walls
   Eigen::VectorXd displacement_;
   std::vector<char> is_displaced_;  // per body of the problem
+  /// Of each contact of the problem.
   struct Row {
-    int contact;
     double target;     // least H_N d [m]
     double stiffness;  // 1 / (H_N M^-1 H_N^T); negative: not yet computed
     double push;       // accumulated multiplier [kg m]

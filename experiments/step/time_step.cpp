@@ -74,7 +74,8 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
   assembler_.pack(state, v_before_);
   force_.setZero(v_before_.size());       // h f, per unknown
   gyroscopic_.setZero(v_before_.size());  // impulse of the gyroscopic term
-  v_free_ = v_before_;
+  Eigen::VectorXd& v_free = problem_.dynamics.v_free;
+  v_free = v_before_;
   const double h = h_;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
     const int first = assembler_.first_dof(static_cast<int>(b));
@@ -87,14 +88,14 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
       const Vec3 axis = body.freedom.axes.col(d);
       force_[first + d] = h * axis.dot(force);
       const double gravity = body.is_wall() ? 0.0 : h * axis.dot(system_.gravity);
-      v_free_[first + d] += gravity + force_[first + d] / body.mass;
+      v_free[first + d] += gravity + force_[first + d] / body.mass;
     }
     // The gyroscopic term is solved for here, once, and not with the contacts.
     if (!body.freedom.rotation) continue;
     const int spin = first + body.freedom.translations;
     const Vec3 after = free_spin(body.inertia, state.spin[b], h);
     gyroscopic_.segment<3>(spin) = body.inertia.cwiseProduct(after - state.spin[b]);
-    v_free_.segment<3>(spin) = after;
+    v_free.segment<3>(spin) = after;
   }
 }
 
@@ -120,7 +121,7 @@ void require_finite(const SolverRun& run, const std::string& solver, double time
 }
 
 void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
-  assembler_.to_rows(carried_, impulses_);
+  assembler_.to_rows(carried_, contacts_, impulses_);
   Budget budget;
   budget.tolerance = spec_.tolerance * velocity_scale_;
   budget.max_iterations = spec_.max_iterations;
@@ -144,12 +145,11 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
 /// prescribed walls.
 void TimeStepper::account_energy(double mid_time, StepRecord& record) {
   const Eigen::VectorXd& v0 = v_before_;
-  const Eigen::VectorXd& v1 = v_after_;
+  const Eigen::VectorXd& v1 = runner_.body_velocity();
   const std::vector<double>& mass = assembler_.mass();
   const double contact_power =
       0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
-  assembler_.prescribed_part(contacts_, mid_time, prescribed_);
-  const double wall_power = impulses_.dot(prescribed_);
+  const double wall_power = assembler_.prescribed_power(contacts_, mid_time, impulses_);
   record.dissipated = -(contact_power + wall_power);
   // T' - T = (v' - v) . M v_mean: the work of each impulse of the step is its product with the mean
   // of the velocities before and after.
@@ -176,10 +176,10 @@ void TimeStepper::account_energy(double mid_time, StepRecord& record) {
 
 /// -L of impact_law.hpp where that is positive. Without error L = r . W r / 2 - r . u >= 0.
 double TimeStepper::gained_energy(double end_time) {
-  assembler_.prescribed_part(contacts_, end_time, prescribed_);
   // -L = r . (u + u_f) / 2 = H^T r . (v' + v_free) / 2 + r . (velocity of the walls).
   const double given =
-      0.5 * runner_.body_impulse().dot(v_after_ + v_free_) + impulses_.dot(prescribed_);
+      0.5 * runner_.body_impulse().dot(runner_.body_velocity() + problem_.dynamics.v_free) +
+      assembler_.prescribed_power(contacts_, end_time, impulses_);
   return std::max(0.0, given);
 }
 
@@ -202,11 +202,11 @@ void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record)
 
 /// The second half of the motion, with the new velocities.
 void TimeStepper::finish_motion(double end_time, MotionState& state) {
-  assembler_.unpack(v_after_, state);
+  assembler_.unpack(runner_.body_velocity(), state);
   for (size_t b = 0; b < state.pose.size(); ++b) {
     if (system_.bodies[b].is_wall() && system_.bodies[b].wall.motion == WallMotion::prescribed)
       state.velocity[b] = prescribed_velocity(system_.bodies[b], end_time);
-    state.pose[b] = moved(mid_.pose[b], state.velocity[b], state.spin[b], 0.5 * h_);
+    state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h_);
   }
   ++state.step;
   state.time = end_time;
@@ -221,28 +221,27 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   // A step of Moreau and Jean, of which this is the first half:
   //
   //     q -- h/2 v --> q_m: contacts are found, impulses r and v' follow -- h/2 v' --> q'
-  mid_ = state;
   for (size_t b = 0; b < state.pose.size(); ++b)
-    mid_.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
+    state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
   // contacts are found at the mid-point, half a step of free flight away
   record.seconds_other = clock.restart();
-  detect(mid_, memory);
+  detect(state, memory);
   record.seconds_detect = clock.restart();
   free_motion(state, mid_time);
   record.seconds_other += clock.restart();
-  assembler_.assemble({mid_, contacts_, v_free_, h, end_time}, problem_);
+  assembler_.assemble({state, contacts_, problem_.dynamics.v_free, h, end_time}, problem_);
   record.seconds_assemble = clock.restart();
   solve(memory, record);
   record.seconds_judge = clock.restart() - record.seconds_solve;
 
   // the books are closed before the poses move on
-  v_after_ = runner_.body_velocity();
   account_energy(mid_time, record);
   record.energy_gained = gained_energy(end_time);
   account_contacts(memory, record);
   finish_motion(end_time, state);
   record.seconds_other += clock.restart();
-  record.work_correction = correction_.apply(assembler_, problem_, contacts_, v_after_, h, state);
+  record.work_correction =
+      correction_.apply(assembler_, problem_, contacts_, runner_.body_velocity(), h, state);
   record.seconds_correct = clock.restart();
 
   if (driven_wall_ >= 0) {

@@ -36,7 +36,8 @@ class TimeStepper {
   /// and load the record reports (-1: none). Throws UnknownSolver, MissingSolver.
   TimeStepper(const MechanicalSystem& system, const Scene& scene, int driven_wall);
 
-  /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite.
+  /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite; it is
+  /// then left within the step.
   StepRecord step(MotionState& state, StepMemory& memory);
 
   /// The problem solved last, its solution, and the contacts it came from: for capture and export.
@@ -45,7 +46,7 @@ class TimeStepper {
   const ProblemAssembler& assembler() const { return assembler_; }
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   /// The impulses from which its solution was begun, rows as in the problem.
-  void warm_start(Impulses& rows) const { assembler_.to_rows(carried_, rows); }
+  void warm_start(Impulses& rows) const { assembler_.to_rows(carried_, contacts_, rows); }
   const DetectionCounters& detection_counters() const { return detector_.counters(); }
   /// For what is done between steps; null: there is one thread.
   WorkerTeam* team() const { return team_.get(); }
@@ -73,11 +74,10 @@ class TimeStepper {
 
   FrictionProblem problem_;
   Impulses impulses_;
-  MotionState mid_;
   std::vector<double> reach_;
   std::vector<ContactPoint> contacts_;
   std::vector<Vec3> carried_;
-  Eigen::VectorXd v_before_, v_free_, v_after_, force_, gyroscopic_, prescribed_;
+  Eigen::VectorXd v_before_, force_, gyroscopic_;
 };
 
 /// Angular velocity after a free flight of h, torque-free: implicit mid-point rule of Euler's

@@ -44,9 +44,7 @@ void BroadPhase::update(std::span<const Pose> poses, std::span<const Mat3> rotat
   if (still_valid(poses, reach)) return;
   list_boxes(poses, rotations, reach);
   find_overlaps();
-  std::swap(pairs_, old_pairs_);  // what is known of a pair is taken from the old list
   list_pairs();
-  carry_memory();
   ++rebuilds_;
 }
 
@@ -119,27 +117,28 @@ void BroadPhase::find_overlaps() {
   }
 }
 
+/// What has been found becomes the list. Both are sorted by (a, b): pairs that stay move to their
+/// new places, with what is known of them.
 void BroadPhase::list_pairs() {
   std::sort(found_.begin(), found_.end());
-  pairs_.clear();
+  auto next = found_.begin();
+  std::erase_if(pairs_, [&](const CandidatePair& pair) {
+    next = std::find_if(next, found_.end(), [key = std::pair(pair.a, pair.b)](const auto& found) {
+      return found >= key;
+    });
+    return next == found_.end() || *next != std::pair(pair.a, pair.b);
+  });
   std::fill(first_.begin(), first_.end(), 0);
-  for (const auto& [a, b] : found_) {
-    pairs_.push_back({.a = a, .b = b});
+  // From the end on, so that no pair is written over before it has moved.
+  size_t stays = pairs_.size();
+  pairs_.resize(found_.size());
+  for (size_t k = found_.size(); k-- > 0;) {
+    const auto [a, b] = found_[k];
+    const bool is_old = stays > 0 && pairs_[stays - 1].a == a && pairs_[stays - 1].b == b;
+    pairs_[k] = is_old ? pairs_[--stays] : CandidatePair{.a = a, .b = b};
     ++first_[a + 1];
   }
   for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
-}
-
-/// Both lists are sorted by (a, b): one merge finds the pairs that stay.
-void BroadPhase::carry_memory() {
-  size_t old = 0;
-  for (CandidatePair& pair : pairs_) {
-    while (old < old_pairs_.size() &&
-           std::pair(old_pairs_[old].a, old_pairs_[old].b) < std::pair(pair.a, pair.b))
-      ++old;
-    if (old == old_pairs_.size()) break;
-    if (old_pairs_[old].a == pair.a && old_pairs_[old].b == pair.b) pair = old_pairs_[old];
-  }
 }
 
 }  // namespace ballast

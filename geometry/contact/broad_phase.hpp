@@ -27,11 +27,11 @@ Travel step_bound(const Pose& from, const Pose& to);
 struct CandidatePair {
   int a, b;
   AxisFeature axis = {};  ///< the one that decided last time
+  int touching = -1;      ///< its record among the pairs that touch; -1: none
   /// Proved separated while shift_a + shift_b + arm_a turn_a + arm_b turn_b + reach_a + reach_b
   /// stays below this [m].
   double apart_below = -1.0;
   double arm_a = 0.0, arm_b = 0.0;  ///< [m]
-  int touching = -1;                ///< its record among the pairs that touch; -1: none
 };
 
 /// The list holds every pair whose boxes, each grown by its body's reach, overlap at the given
@@ -66,7 +66,6 @@ class BroadPhase {
                   std::span<const double> reach);
   void find_overlaps();
   void list_pairs();
-  void carry_memory();
 
   std::vector<Body> bodies_;
   std::vector<double> radius_;  // circumradii, together for the processor's cache [m]
@@ -81,7 +80,7 @@ class BroadPhase {
   };
   std::vector<Interval> sorted_[3];  // of the boxes in that order, along each direction
   std::vector<std::pair<int, int>> found_;
-  std::vector<CandidatePair> pairs_, old_pairs_;
+  std::vector<CandidatePair> pairs_;
   std::vector<int> first_;
   long rebuilds_ = 0;
 };

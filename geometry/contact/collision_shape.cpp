@@ -14,6 +14,7 @@ constexpr double far_away = 1e100;  // [m]; finite, so that sums of padding stay
 
 int rounded_up(int count) { return (count + lanes - 1) / lanes * lanes; }
 
+std::uint16_t in_two_bytes(int number) { return static_cast<std::uint16_t>(number); }
 std::vector<std::uint16_t> in_two_bytes(const std::vector<int>& numbers) {
   return {numbers.begin(), numbers.end()};
 }
@@ -188,7 +189,8 @@ void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector
     corner_edge[corner] = edge_count();
   };
   for (const Polyhedron::Edge& edge : polyhedron.edges()) {
-    const EdgeEnds ends{edge.tail, edge.head, patch[edge.left], patch[edge.right]};
+    const EdgeEnds ends{in_two_bytes(edge.tail), in_two_bytes(edge.head),
+                        in_two_bytes(patch[edge.left]), in_two_bytes(patch[edge.right])};
     if (ends.left == ends.right) continue;
     enter(ends.left, ends.tail);
     enter(ends.right, ends.head);

@@ -69,7 +69,7 @@ class CollisionShape {
   /// What an edge joins: its ends and, seen from outside, the face `left`, which runs tail -> head,
   /// and the face `right`.
   struct EdgeEnds {
-    int tail, head, left, right;
+    std::uint16_t tail, head, left, right;
   };
   struct Edge : EdgeEnds {
     Vec3 from, along;                ///< the tail, and head - tail
@@ -77,7 +77,7 @@ class CollisionShape {
     double length;
     /// Along the unit normal n of this edge and another one, u, every vertex but the two ends lies
     /// at least drop min(|left_normal.u|, |right_normal.u|) / |along x u| below the edge [m].
-    double drop;
+    float drop;
   };
   /// Corner k of a face's loop and the edge from there to corner k+1.
   struct Corner {

@@ -27,16 +27,19 @@ std::uint64_t crossing_key(int reference, std::span<const CollisionShape::Corner
 }  // namespace
 
 std::span<ClippedPoint> FaceClipper::clip(const PairFrame& pair, int reference,
-                                          const FaceView& face, const FaceView& incident,
+                                          const FaceView& face,
+                                          std::span<const CollisionShape::Corner> incident,
                                           double thickness, const Vec3* direction) {
   polygon_.clear();
-  for (const CollisionShape::Corner& corner : incident.corners)
+  for (const CollisionShape::Corner& corner : incident)
     polygon_.push_back({pair.other[reference] * corner.position, 0.0,
                         vertex_key(1 - reference, corner.vertex), corner.edge});
-  const size_t count = face.sides.size();
+  const size_t count = face.corners.size();
   for (size_t k = 0; k < count && !polygon_.empty(); ++k) {
-    CollisionShape::Side side = face.sides[k];
-    if (direction) {
+    CollisionShape::Side side;
+    if (!direction) {
+      side = face.sides[k];
+    } else {
       const Vec3& from = face.corners[k].position;
       const Vec3 along = face.corners[k + 1 < count ? k + 1 : 0].position - from;
       side.outward = along.cross(*direction).normalized();
@@ -167,7 +170,7 @@ std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair,
     return lone_point(pair, axis, vertex_on_face(pair, axis, own.face(face), vertex));
   own.write(face, face_of_[reference]);
   other.write(incident_face(pair, reference, face, axis.support), face_of_[1 - reference]);
-  return points(pair, axis, {face_of_[reference].view(), face_of_[1 - reference].view(), vertex},
+  return points(pair, axis, {face_of_[reference].view(), face_of_[1 - reference].corners, vertex},
                 alert, max_points);
 }
 
@@ -204,8 +207,8 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
                                  &incident = reference == 0 ? edges.beside_b : edges.beside_a;
   const Vec3 direction =
       reference == 0 ? axis.direction : Vec3(-(pair.other[1].rotation * axis.direction));
-  const std::span<ClippedPoint> corners =
-      clipper_.clip(pair, reference, face, incident, clipping_thickness(pair.size()), &direction);
+  const std::span<ClippedPoint> corners = clipper_.clip(
+      pair, reference, face, incident.corners, clipping_thickness(pair.size()), &direction);
   set_heights(corners, face.face, direction);
   bool has_crossing = false;
   for (ClippedPoint p : corners) {

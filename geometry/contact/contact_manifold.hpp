@@ -16,10 +16,12 @@ int incident_face(const ShapePair& pair, int reference, int face, int vertex);
 /// Cosines nearer than this are near-ties.
 constexpr double equal_cosines = 1e-12;
 
-/// What a manifold is made from when the axis is a face: that face, the incident face, and the
-/// axis' support vertex, each in its own body's frame.
+/// What a manifold is made from when the axis is a face: that face, the corners of the incident
+/// face, and the axis' support vertex, each in its own body's frame. Of the reference face's
+/// corners the numbers alone are read.
 struct FaceOnFace {
-  CollisionShape::FaceView reference, incident;
+  CollisionShape::FaceView reference;
+  std::span<const CollisionShape::Corner> incident;
   const Vec3& vertex;
 };
 /// The same for two edges: of the faces beside each, EdgesMeeting's.
@@ -43,13 +45,13 @@ class FaceClipper {
 
   using FaceView = CollisionShape::FaceView;
 
-  /// The part of face `incident` of body 1 - `reference` that lies within the prism on face `face`
-  /// of body `reference`, counter-clockwise seen from the incident body's outside. The prism lies
-  /// along the face's normal, or along `direction`, a unit vector in the reference body's frame.
-  /// Corners up to `thickness` [m] outside a side count as inside and stay where they are. Valid
-  /// until the next call.
+  /// The part of the face with corners `incident` of body 1 - `reference` that lies within the
+  /// prism on face `face` of body `reference`, counter-clockwise seen from the incident body's
+  /// outside. The prism lies along the face's normal, or along `direction`, a unit vector in the
+  /// reference body's frame, and the face's sides are not read. Corners up to `thickness` [m]
+  /// outside a side count as inside and stay where they are. Valid until the next call.
   std::span<ClippedPoint> clip(const PairFrame& pair, int reference, const FaceView& face,
-                               const FaceView& incident, double thickness,
+                               std::span<const CollisionShape::Corner> incident, double thickness,
                                const Vec3* direction = nullptr);
 
  private:
@@ -81,7 +83,7 @@ bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, double al
 struct EdgeOfFace {
   const CollisionShape::Edge& edge;
   std::span<const CollisionShape::Side> sides;
-  int own;  ///< the side that stands on the edge
+  int own;  ///< the side that stands on the edge; -1: it is left out
 };
 /// `index`: of the edge in its shape.
 EdgeOfFace edge_of_face(const CollisionShape::Edge& edge, int index,

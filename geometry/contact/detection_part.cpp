@@ -215,7 +215,7 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   // Whether they count must not depend on the margin with which the broad phase listed them: they
   // count if it would list them without any margin.
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, alert)) return;
-  if (settings_.use_cache) remember(candidate, pair, axis, turn);
+  if (settings_.use_cache) remember(candidate, pair, axis, turn, alert);
   append(candidate, pair, axis, manifold_.points(pair, axis, alert, settings_.max_points),
          contacts);
 }
@@ -236,9 +236,9 @@ void DetectionPart::append(const CandidatePair& candidate, const PairFrame& fram
 }
 
 void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair,
-                             const SeparatingAxis& axis, double turn) {
+                             const SeparatingAxis& axis, double turn, double alert) {
   if (candidate.touching < 0) candidate.touching = new_place();
-  records_.touching[candidate.touching].record(pair, axis, turn, heights_);
+  records_.touching[candidate.touching].record(pair, axis, turn, alert, heights_);
 }
 
 /// Asks the cache for the record of a pair that is looked at a few pairs from now: the list of

@@ -9,28 +9,23 @@ namespace {
 
 constexpr double largest = std::numeric_limits<double>::max();
 
-EdgeOfFace edge_of_copy(const CollisionShape::Edge& edge, const FaceCopy& face, int own) {
-  return {edge, face.view().sides, own};
-}
-
 /// The lowest of an incident face's corners over a reference face, and how far it lies below the
 /// others.
 struct LowestCorner {
   int place = 0;  // in the face's loop; of equals the smallest vertex
   double height = largest, clearance = largest;
 };
-LowestCorner lowest_corner(const FaceCopy& face, const Vec3& direction) {
+LowestCorner lowest_corner(std::span<const CollisionShape::Corner> corners, const Vec3& direction) {
   LowestCorner low;
   double second = largest;
-  for (int k = 0; k < face.count; ++k) {
-    const double height = vertex_height(direction, face.corner[k].position);
-    const bool is_lower =
-        height < low.height ||
-        (height == low.height && face.corner[k].vertex < face.corner[low.place].vertex);
+  for (size_t k = 0; k < corners.size(); ++k) {
+    const double height = vertex_height(direction, corners[k].position);
+    const bool is_lower = height < low.height ||
+                          (height == low.height && corners[k].vertex < corners[low.place].vertex);
     second = std::min(second, is_lower ? low.height : height);
     if (!is_lower) continue;
     low.height = height;
-    low.place = k;
+    low.place = static_cast<int>(k);
   }
   low.clearance = second - low.height;
   return low;
@@ -38,54 +33,74 @@ LowestCorner lowest_corner(const FaceCopy& face, const Vec3& direction) {
 
 }  // namespace
 
-bool FaceCopy::take(const CollisionShape& shape, int f) {
-  index = -1;
-  if (shape.corner_count(f) > static_cast<int>(most)) return false;
-  index = f;
-  count = shape.corner_count(f);
-  face = shape.face(f);
-  for (int k = 0; k < count; ++k) {
-    side[k] = shape.side(f, k);
-    corner[k] = shape.corner(f, k);
-  }
-  return true;
-}
-
 void TouchingPair::record(const ShapePair& pair, const SeparatingAxis& axis, double turn,
-                          Heights& heights) {
+                          double alert, Heights& heights) {
   contact_ = std::monostate{};
   feature_ = axis.feature;
-  if (feature_.kind != AxisKind::edges) return record_faces(pair, axis.support, turn, heights);
+  if (feature_.kind == AxisKind::edges)
+    record_edges(pair, axis, alert);
+  else
+    record_faces(pair, axis.support, turn, heights);
+}
+
+void TouchingPair::record_edges(const ShapePair& pair, const SeparatingAxis& axis, double alert) {
   Edges& edges = contact_.emplace<Edges>();
+  edges.face[0] = edges.face[1] = -1;
   edges.a = pair.shape[0]->edge(feature_.a);
   edges.b = pair.shape[1]->edge(feature_.b);
   const EdgesMeeting meeting(pair, axis, edges.a, edges.b);
-  if (edges.beside_a.face.take(*pair.shape[0], meeting.face_a))
-    edges.beside_a.own = edge_of_face(edges.a, feature_.a, edges.beside_a.face.view()).own;
-  if (edges.beside_b.face.take(*pair.shape[1], meeting.face_b))
-    edges.beside_b.own = edge_of_face(edges.b, feature_.b, edges.beside_b.face.view()).own;
+  const int face[2] = {meeting.face_a, meeting.face_b}, edge[2] = {feature_.a, feature_.b};
+  const int corners[2] = {pair.shape[0]->corner_count(face[0]),
+                          pair.shape[1]->corner_count(face[1])};
+  if (meeting.is_sharp() || std::max(corners[0], corners[1]) > static_cast<int>(most)) return;
+  Sides& sides = edges.beside.emplace<Sides>();
+  for (int body = 0; body < 2; ++body) {
+    edges.face[body] = face[body];
+    sides.count[body] = 0;
+    for (int k = 0; k < corners[body]; ++k)
+      if (pair.shape[body]->corner(face[body], k).edge != edge[body])
+        sides.side[body][sides.count[body]++] = pair.shape[body]->side(face[body], k);
+  }
+  if (is_lone_crossing(pair, axis, meeting, sides.beside(edges.a, 0), sides.beside(edges.b, 1),
+                       alert))
+    return;
+  Corners& kept = edges.beside.emplace<Corners>();
+  for (int body = 0; body < 2; ++body) {
+    kept.count[body] = corners[body];
+    kept.offset[body] = pair.shape[body]->face(face[body]).offset;
+    for (int k = 0; k < corners[body]; ++k)
+      kept.corner[body][k] = pair.shape[body]->corner(face[body], k);
+  }
 }
 
 void TouchingPair::record_faces(const ShapePair& pair, int support, double turn, Heights& heights) {
   const int own = feature_.reference(), f = feature_.face();
-  const CollisionShape& other = *pair.shape[1 - own];
+  const CollisionShape &shape = *pair.shape[own], &other = *pair.shape[1 - own];
   const int incident = incident_face(pair, own, f, support);
+  const int sides = shape.corner_count(f), count = other.corner_count(incident);
+  if (std::max(sides, count) > static_cast<int>(most)) return;
   Faces& faces = contact_.emplace<Faces>();
-  if (!faces.reference.take(*pair.shape[own], f) || !faces.incident.take(other, incident)) {
-    contact_ = std::monostate{};
-    return;
+  faces.reference = shape.face(f);
+  faces.side_count = sides;
+  for (int k = 0; k < sides; ++k) {
+    const CollisionShape::Corner corner = shape.corner(f, k);
+    faces.side[k] = shape.side(f, k);
+    faces.corner[k] = {static_cast<std::uint16_t>(corner.vertex),
+                       static_cast<std::uint16_t>(corner.edge)};
   }
+  faces.incident_count = count;
+  for (int k = 0; k < count; ++k) faces.incident[k] = other.corner(incident, k);
   faces.turn = turn;
-  const std::span<const CollisionShape::Corner> corners = faces.incident.view().corners;
+  const std::span<const CollisionShape::Corner> corners(faces.incident.data(), count);
   // All other vertices' heights over the support's.
-  const Vec3 direction = pair.other[1 - own].rotation * faces.reference.face.normal;
+  const Vec3 direction = pair.other[1 - own].rotation * faces.reference.normal;
   other.vertices().evaluate(direction, heights.data());
   const double lowest = heights[support];
   for (const CollisionShape::Corner& corner : corners) heights[corner.vertex] = largest;
   faces.clearance = *std::min_element(heights.begin(), heights.begin() + other.vertices().count());
   faces.clearance -= lowest;
   // The faces that compete with the incident one, corner by corner.
-  const double cosine = faces.incident.face.normal.dot(direction);
+  const double cosine = other.face(incident).normal.dot(direction);
   for (size_t k = 0; k < corners.size(); ++k) {
     faces.lead[k] = largest;
     const int vertex = corners[k].vertex;
@@ -111,9 +126,12 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
                                          SeparatingAxis& axis,
                                          std::span<const ManifoldPoint>& points) const {
   const int own = feature_.reference();
-  const CollisionShape::FaceView reference = faces.reference.view();
-  const Vec3 direction = pair.other[1 - own].rotation * reference.face.normal;
-  const LowestCorner low = lowest_corner(faces.incident, direction);
+  const CollisionShape::Face& reference = faces.reference;
+  const std::span<const CollisionShape::Side> sides(faces.side.data(), faces.side_count);
+  const std::span<const CollisionShape::Corner> incident(faces.incident.data(),
+                                                         faces.incident_count);
+  const Vec3 direction = pair.other[1 - own].rotation * reference.normal;
+  const LowestCorner low = lowest_corner(incident, direction);
   // Other vertices may have come nearer to the face by as much as the bodies have turned since. The
   // term 1e-9 is far above the rounding of sums of turns over 1e7 steps.
   const double turned = turn - faces.turn + 1e-9 * (1.0 + turn);
@@ -121,26 +139,30 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
   const double clearance = std::min(low.clearance, faces.clearance - diameter * turned);
   if (!(clearance > proof_margin(pair)))
     return Look::undecided;  // another vertex may be the lowest
-  const double separation = face_separation_at(pair, own, reference.face, low.height);
+  const double separation = face_separation_at(pair, own, reference, low.height);
   axis.separation = separation;
   if (separation > alert) return Look::apart;
   // The axis and its proof.
-  const CollisionShape::Corner& support = faces.incident.corner[low.place];
-  const auto side_at = [&](int k) -> const CollisionShape::Side& { return reference.sides[k]; };
-  axis = face_axis(pair, feature_, reference.face, static_cast<int>(reference.sides.size()),
-                   side_at, support.position, separation);
+  const CollisionShape::Corner& support = incident[low.place];
+  const auto side_at = [&](int k) -> const CollisionShape::Side& { return sides[k]; };
+  axis =
+      face_axis(pair, feature_, reference, faces.side_count, side_at, support.position, separation);
   axis.support = support.vertex;
   axis.clearance = clearance;
-  if (!is_proved_best(pair, reference.face.isolation, axis)) return Look::undecided;
+  if (!is_proved_best(pair, reference.isolation, axis)) return Look::undecided;
   // One point, or the common part of the two faces if the incident face is the same still.
   if (is_lone_vertex(pair, axis, alert)) {
-    points = manifold.lone_point(pair, axis,
-                                 vertex_on_face(pair, axis, reference.face, support.position));
+    points =
+        manifold.lone_point(pair, axis, vertex_on_face(pair, axis, reference, support.position));
     return Look::touching;
   }
   if (!(faces.lead[low.place] - 2.0 * turned > 2.0 * equal_cosines)) return Look::undecided;
-  points = manifold.points(pair, axis, {reference, faces.incident.view(), support.position}, alert,
-                           max_points);
+  std::array<CollisionShape::Corner, most> corners;  // of which the names alone are read
+  for (size_t k = 0; k < sides.size(); ++k)
+    corners[k] = {faces.corner[k].vertex, faces.corner[k].edge, {}};
+  points = manifold.points(
+      pair, axis, {{reference, {corners.data(), sides.size()}, sides}, incident, support.position},
+      alert, max_points);
   return Look::touching;
 }
 
@@ -156,18 +178,29 @@ TouchingPair::Look TouchingPair::look_at(const Edges& edges, const PairFrame& pa
   if (!is_proved_best(pair, 1.0, axis)) return Look::undecided;
   // The crossing alone, or the common part of the faces beside the edges if they are the same.
   const EdgesMeeting meeting(pair, axis, edges.a, edges.b);
-  const FaceCopy &face_a = edges.beside_a.face, &face_b = edges.beside_b.face;
-  const bool is_sharp = meeting.is_sharp();
-  if (!is_sharp && (meeting.face_a != face_a.index || meeting.face_b != face_b.index))
+  if (meeting.is_sharp()) {
+    points = manifold.lone_point(pair, axis, edges_cross(pair, axis, edges.a, edges.b));
+    return Look::touching;
+  }
+  if (meeting.face_a != edges.face[0] || meeting.face_b != edges.face[1]) return Look::undecided;
+  if (const auto* corners = std::get_if<Corners>(&edges.beside)) {
+    const auto plane = [&](const CollisionShape::Edge& edge, int body) {
+      const bool is_left = edges.face[body] == edge.left;
+      return CollisionShape::Face{is_left ? edge.left_normal : edge.right_normal,
+                                  corners->offset[body], 0.0};
+    };
+    const CollisionShape::Face face_a = plane(edges.a, 0), face_b = plane(edges.b, 1);
+    points = manifold.points(
+        pair, axis, meeting,
+        {edges.a, edges.b, {face_a, corners->of(0), {}}, {face_b, corners->of(1), {}}}, alert,
+        max_points);
+    return Look::touching;
+  }
+  const Sides& sides = std::get<Sides>(edges.beside);
+  if (!is_lone_crossing(pair, axis, meeting, sides.beside(edges.a, 0), sides.beside(edges.b, 1),
+                        alert))
     return Look::undecided;
-  const bool is_lone =
-      is_sharp ||
-      is_lone_crossing(pair, axis, meeting, edge_of_copy(edges.a, face_a, edges.beside_a.own),
-                       edge_of_copy(edges.b, face_b, edges.beside_b.own), alert);
-  points = is_lone ? manifold.lone_point(pair, axis, edges_cross(pair, axis, edges.a, edges.b))
-                   : manifold.points(pair, axis, meeting,
-                                     {edges.a, edges.b, face_a.view(), face_b.view()}, alert,
-                                     max_points);
+  points = manifold.lone_point(pair, axis, edges_cross(pair, axis, edges.a, edges.b));
   return Look::touching;
 }
 

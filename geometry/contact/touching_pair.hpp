@@ -4,8 +4,8 @@
 //
 // From step to step nearly every touching pair keeps its axis and the two faces or edges that meet.
 // Its shapes' tables lie scattered over megabytes; this memory is a few cache lines, read in the
-// order of the pairs. Its answers equal, bit for bit, those of the tables, which decide whenever
-// these copies cannot.
+// order of the pairs, and holds nothing that only few pairs read. Its answers equal, bit for bit,
+// those of the tables, which decide whenever these copies cannot.
 
 #include <array>
 #include <variant>
@@ -14,28 +14,12 @@
 
 namespace ballast {
 
-/// A copy of a face that has few corners.
-struct FaceCopy {
-  static constexpr size_t most = 4;  ///< faces with more are left to the shapes' tables
-  int index = -1;                    ///< of the face in its shape; -1: nothing is kept
-  int count = 0;
-  CollisionShape::Face face;
-  std::array<CollisionShape::Side, most> side;
-  std::array<CollisionShape::Corner, most> corner;
-
-  /// False, and nothing is kept, if there are too many corners.
-  bool take(const CollisionShape& shape, int f);
-  CollisionShape::FaceView view() const {
-    const size_t n = static_cast<size_t>(count);
-    return {face, {corner.data(), n}, {side.data(), n}};
-  }
-};
-
 class TouchingPair {
  public:
   /// Records a pair's best axis. `turn`: the sum of both bodies' Travel::turn. `heights`: scratch.
   /// Faces with too many corners are not recorded.
-  void record(const ShapePair& pair, const SeparatingAxis& axis, double turn, Heights& heights);
+  void record(const ShapePair& pair, const SeparatingAxis& axis, double turn, double alert,
+              Heights& heights);
 
   enum class Look { undecided, apart, touching };
   /// Looks at the pair in its present pose.
@@ -47,29 +31,57 @@ class TouchingPair {
             std::span<const ManifoldPoint>& points) const;
 
  private:
-  /// A face of one body and the face of the other that lies on it.
+  static constexpr size_t most = 4;  ///< faces with more corners are left to the shapes' tables
+
+  /// What a corner of a face's loop is called.
+  struct CornerNames {
+    std::uint16_t vertex, edge;
+  };
+  /// A face of one body and the corners of the other body's face that lies on it.
   struct Faces {
-    FaceCopy reference, incident;
+    CollisionShape::Face reference;
+    std::array<CollisionShape::Side, most> side;
+    std::array<CornerNames, most> corner;
+    int side_count, incident_count;
+    std::array<CollisionShape::Corner, most> incident;
     /// Of the other body's vertices that are no corners of the incident face: how much higher than
     /// the lowest corner they were when recorded [m].
     double clearance;
     /// Of each corner: by how much in cosine the incident face opposed the reference face more than
     /// any other face at that corner did.
-    std::array<double, FaceCopy::most> lead;
+    std::array<double, most> lead;
     double turn;  ///< of both bodies until then (Travel). Since then, heights have changed by no
                   ///< more than the turn times the other body's diameter, cosines by no more than
                   ///< the turn.
   };
-  /// Two edges and, of the faces beside each, the one that looked along the axis most.
+  /// Of the faces beside two edges, the planes on the sides but that on the edge: they prove that
+  /// the crossing is alone.
+  struct Sides {
+    int count[2];
+    std::array<CollisionShape::Side, most - 1> side[2];
+
+    EdgeOfFace beside(const CollisionShape::Edge& edge, int body) const {
+      return {edge, {side[body].data(), static_cast<size_t>(count[body])}, -1};
+    }
+  };
+  /// Where it is not: the faces' corners, of which the other points are made.
+  struct Corners {
+    int count[2];
+    double offset[2];  ///< of the faces' planes
+    std::array<CollisionShape::Corner, most> corner[2];
+
+    std::span<const CollisionShape::Corner> of(int body) const {
+      return {corner[body].data(), static_cast<size_t>(count[body])};
+    }
+  };
+  /// Two edges and, if they are flat, what is needed of the faces beside them.
   struct Edges {
-    struct Beside {
-      FaceCopy face;
-      int own = 0;  ///< the side that stands on the edge
-    };
     CollisionShape::Edge a, b;
-    Beside beside_a, beside_b;
+    int face[2];  ///< those faces; -1: nothing is kept
+    std::variant<Sides, Corners> beside;
   };
 
+  void record_edges(const ShapePair& pair, const SeparatingAxis& axis, double alert);
   void record_faces(const ShapePair& pair, int support, double turn, Heights& heights);
   Look look_at(const Faces& faces, const PairFrame& pair, double turn, double alert, int max_points,
                ContactManifold& manifold, SeparatingAxis& axis,

@@ -280,14 +280,10 @@ double largest_eigenvalue(const Eigen::Matrix3d& w) {
 
 void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
                                              const std::vector<int>& row_begin, const Impulses& r) {
-  if (!masses_.are_of(dynamics)) {
-    masses_ = {};  // factor_masses may throw
-    factor_masses(dynamics, roots_);
-    masses_.keep(dynamics);
-  }
+  if (!masses_.are_of(dynamics)) masses_.keep(dynamics);
   contact_to_body_impulse(dynamics, row_begin, r, hr_);
   v_ = hr_;
-  solve_masses(dynamics, roots_, v_);
+  solve_masses(dynamics, masses_.roots(), v_);
   v_ += dynamics.v_free;
 }
 
@@ -297,7 +293,7 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
   const int contacts = end - begin, places = JudgeBlock::places(contacts);
   for (int k = contacts; k < places; ++k) block.clear(k);
   if (problem.has_dynamics)
-    look_at_rows(problem, roots_, v_, begin, end, q_, u_, block);
+    look_at_rows(problem, masses_.roots(), v_, begin, end, q_, u_, block);
   else
     for (int c = begin; c < end; ++c) block.take(c - begin, diagonal_[c]);
   lay_out(problem, r, u_, q_, begin, end, block);
@@ -368,7 +364,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     q_.resize(problem.row_count());
     u_.resize(problem.row_count());
   } else {
-    delassus_diagonal(problem, roots_, diagonal_);
+    delassus_diagonal(problem, diagonal_);
     free_contact_velocity(problem, q_);
     contact_velocity(problem, r, u_);
   }

@@ -69,6 +69,9 @@ class ContactJudge {
   /// H^T r of the same.
   const Eigen::VectorXd& body_impulse() const { return hr_; }
 
+  /// Those of the problems judged until now: whoever validates these need not look at them again.
+  KnownMasses& masses() { return masses_; }
+
   /// Shares the work from now on; null: alone. The same bits either way. `team` outlives the judge.
   void use_team(WorkerTeam* team) { team_ = team; }
 
@@ -93,8 +96,7 @@ class ContactJudge {
 
   WorkerTeam* team_ = nullptr;
   Eigen::VectorXd u_, q_, v_, hr_;
-  KnownMasses masses_;  // of which the roots are
-  std::vector<MassRoot> roots_;
+  KnownMasses masses_;
   std::vector<Eigen::Matrix3d> diagonal_;  // of a stored W
   std::vector<Share> shares_;
 };

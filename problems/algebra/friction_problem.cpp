@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <sstream>
 #include <string>
 
@@ -466,15 +465,34 @@ FrictionProblem local_problem(SparseRows&& w, Eigen::VectorXd q, std::vector<dou
 }
 
 bool KnownMasses::are_of(const DynamicsForm& dynamics) const {
-  return dof_begin_ == dynamics.dof_begin && mass_begin_ == dynamics.mass_begin &&
-         mass_.size() == dynamics.mass.size() &&
-         std::memcmp(mass_.data(), dynamics.mass.data(), mass_.size() * sizeof(double)) == 0;
+  if (roots_.empty() || dof_begin_ != dynamics.dof_begin || mass_begin_ != dynamics.mass_begin ||
+      dynamics.mass.size() != static_cast<std::size_t>(mass_begin_.back()))
+    return false;
+  const double* kept = mass_.data();
+  std::uint64_t differing = 0;  // bits
+  const auto compare = [&differing](double x, double y) {
+    differing |= std::bit_cast<std::uint64_t>(x) ^ std::bit_cast<std::uint64_t>(y);
+  };
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    const double* block = dynamics.mass.data() + mass_begin_[b];
+    const int dofs = roots_[b].dofs;
+    for (int j = 0; j < dofs; ++j)
+      for (int i = 0; i < dofs; ++i)
+        compare(block[j * dofs + i], i == j || !roots_[b].diagonal ? *kept++ : 0.0);
+  }
+  return differing == 0;
 }
 
 void KnownMasses::keep(const DynamicsForm& dynamics) {
+  dof_begin_.clear();  // factor_masses may throw
+  factor_masses(dynamics, roots_);
   dof_begin_ = dynamics.dof_begin;
   mass_begin_ = dynamics.mass_begin;
-  mass_ = dynamics.mass;
+  mass_.clear();
+  for (int b = 0; b < dynamics.body_count(); ++b) {
+    const int dofs = roots_[b].dofs, step = roots_[b].diagonal ? dofs + 1 : 1;
+    for (int k = 0; k < dofs * dofs; k += step) mass_.push_back(dynamics.mass[mass_begin_[b] + k]);
+  }
 }
 
 }  // namespace ballast

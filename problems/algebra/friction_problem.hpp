@@ -14,6 +14,8 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 
+#include "problems/algebra/mass_root.hpp"
+
 namespace ballast {
 
 /// Stacked contact impulses (or relative velocities), one segment of 1 or 3 rows per contact.
@@ -27,8 +29,6 @@ inline constexpr double largest_friction = 1e4;
 /// Greatest size of any entry, and least of a mass and of W_cc where it is not zero. In between no
 /// square, product or determinant that a solver makes overflows.
 inline constexpr double largest_entry = 1e30, smallest_scale = 1e-30;
-
-struct MassRoot;
 
 /// A problem that no solver may see; what() names the array, the index and the value.
 class InvalidProblem : public std::runtime_error {
@@ -110,16 +110,19 @@ struct FrictionProblem {
   void validate(class KnownMasses* valid = nullptr) const;
 };
 
-/// A copy of the bodies' masses and unknowns, to tell whether they are the same, bit by bit: in a
-/// run every step brings the same.
+/// The roots of the bodies' masses, and of the masses what tells whether they are the same, bit by
+/// bit: in a run every step brings the same.
 class KnownMasses {
  public:
   bool are_of(const DynamicsForm& dynamics) const;
+  /// Throws InvalidProblem for a block that is not positive definite, and then keeps nothing.
   void keep(const DynamicsForm& dynamics);
+  const std::vector<MassRoot>& roots() const { return roots_; }
 
  private:
   std::vector<int> dof_begin_, mass_begin_;
-  std::vector<double> mass_;
+  std::vector<double> mass_;  // of a diagonal block its diagonal alone
+  std::vector<MassRoot> roots_;
 };
 
 /// u = W r + q with three rows per contact, and nothing known of bodies.

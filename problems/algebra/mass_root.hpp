@@ -3,26 +3,28 @@
 // the unit mass.
 
 #include <cmath>
+#include <memory>
 
 namespace ballast {
 
-/// At most 6 x 6, inline. Masses are usually diagonal; then every operation is a scaling, and one
-/// cache line is all it reads.
+/// At most 6 x 6. Masses are usually diagonal; then every operation is a scaling, and one cache
+/// line is all there is.
 struct alignas(64) MassRoot {
   static constexpr int max_dofs = 6;
 
   double inverse[max_dofs];  ///< 1 / L_ii
   int dofs = 0;
   bool diagonal = true;
-  double l[max_dofs * max_dofs];  ///< column-major, stride max_dofs, lower triangle; only its
-                                  ///< diagonal is set when `diagonal`
+  std::unique_ptr<double[]>
+      l;  ///< unless `diagonal`: column-major, stride max_dofs, lower triangle
 
   /// `mass` is dofs x dofs, column-major; its lower triangle is read. False: not positive definite.
   bool factor(const double* mass, int dof_count);
 
-  void solve_lower(double* x) const;     ///< x := L^-1 x
-  void solve_upper(double* x) const;     ///< x := L^-T x
-  void multiply_upper(double* x) const;  ///< x := L^T x
+  void solve_lower(double* x) const;  ///< x := L^-1 x
+  void solve_upper(double* x) const;  ///< x := L^-T x
+  /// x := L^T x. `mass`: of which this is the root.
+  void multiply_upper(const double* mass, double* x) const;
 
   /// Calls visit(k, column) for the columns of G = H L^-T, where H is a column-major block of Rows
   /// x dofs and `column` has Rows entries. Inlined where it is hot: with the usual six unknowns
@@ -64,15 +66,16 @@ inline bool MassRoot::factor(const double* mass, int dof_count) {
   diagonal = true;
   for (int j = 0; j < dofs; ++j)
     for (int i = j + 1; i < dofs; ++i) diagonal = diagonal && mass[j * dofs + i] == 0.0;
+  if (!diagonal && !l) l = std::make_unique<double[]>(max_dofs * max_dofs);
   for (int j = 0; j < dofs; ++j) {
     double pivot = mass[j * dofs + j];
     if (!diagonal)
       for (int k = 0; k < j; ++k) pivot -= l[k * max_dofs + j] * l[k * max_dofs + j];
     if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
     const double root = std::sqrt(pivot);
-    l[j * max_dofs + j] = root;
     inverse[j] = 1.0 / root;
     if (diagonal) continue;
+    l[j * max_dofs + j] = root;
     for (int i = j + 1; i < dofs; ++i) {
       double entry = mass[j * dofs + i];
       for (int k = 0; k < j; ++k) entry -= l[k * max_dofs + i] * l[k * max_dofs + j];
@@ -98,9 +101,9 @@ inline void MassRoot::solve_upper(double* x) const {
   }
 }
 
-inline void MassRoot::multiply_upper(double* x) const {
+inline void MassRoot::multiply_upper(const double* mass, double* x) const {
   for (int j = 0; j < dofs; ++j) {
-    x[j] *= l[j * max_dofs + j];
+    x[j] *= diagonal ? std::sqrt(mass[j * dofs + j]) : l[j * max_dofs + j];
     if (!diagonal)
       for (int i = j + 1; i < dofs; ++i) x[j] += l[j * max_dofs + i] * x[i];
   }

@@ -5,16 +5,26 @@
 
 namespace ballast {
 
-Mat3 contact_frame(const Vec3& n) {
-  // T1 in the plane of n and the world axis that is least along n: never near-parallel.
+namespace {
+
+/// In the plane of n and the world axis that is least along n: never near-parallel.
+Vec3 first_tangent(const Vec3& n) {
   int axis = 0;
   n.cwiseAbs().minCoeff(&axis);
+  return (Vec3::Unit(axis) - n[axis] * n).normalized();
+}
+
+Mat3 frame_of(const Vec3& n, const Vec3& first_tangent) {
   Mat3 frame;
   frame.row(0) = n;
-  frame.row(1) = (Vec3::Unit(axis) - n[axis] * n).normalized();
-  frame.row(2) = n.cross(Vec3(frame.row(1)));
+  frame.row(1) = first_tangent;
+  frame.row(2) = n.cross(first_tangent);
   return frame;
 }
+
+}  // namespace
+
+Mat3 contact_frame(const Vec3& normal) { return frame_of(normal, first_tangent(normal)); }
 
 Vec3 prescribed_velocity(const RigidBody& body, double time) {
   if (!body.is_wall() || body.wall.motion != WallMotion::prescribed) return Vec3::Zero();
@@ -25,8 +35,7 @@ Vec3 prescribed_velocity(const RigidBody& body, double time) {
 ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(system) {
   for (const RigidBody& body : system.bodies) {
     const bool is_like_last = !sides_.empty() && *sides_.back().freedom == body.freedom;
-    sides_.push_back({Mat3::Identity(), Vec3::Zero(),
-                      is_like_last ? sides_.back().freedom : &body.freedom,
+    sides_.push_back({is_like_last ? sides_.back().freedom : &body.freedom,
                       body.is_wall() ? body.wall.friction : -1.0});
     if (body.is_wall() && body.wall.motion == WallMotion::prescribed)
       some_wall_is_prescribed_ = true;
@@ -38,17 +47,11 @@ ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(sys
     // Bodies without unknowns are no bodies of the problem; the others are numbered through.
     problem_body_.push_back(static_cast<int>(dof_begin_.size()) - 1);
     dof_begin_.push_back(dof_begin_.back() + dofs);
-    // orthonormal axes and principal frame: the block is diagonal
-    const size_t begin = constant_.mass.size();
-    constant_.mass.resize(begin + dofs * dofs, 0.0);
     for (int d = 0; d < dofs; ++d) {
       const int turn = d - body.freedom.translations;
       mass_.push_back(turn < 0 ? body.mass : body.inertia[turn]);
-      constant_.mass[begin + d * dofs + d] = mass_.back();
     }
-    constant_.mass_begin.push_back(static_cast<int>(constant_.mass.size()));
   }
-  constant_.dof_begin = dof_begin_;
 }
 
 /// The unknowns, body by body: velocities along the free axes, then the spin in the body frame.
@@ -80,10 +83,9 @@ void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) cons
 /// minus, since u = velocity of b - velocity of a.
 template <int Rows>
 void ProblemAssembler::write_contact(const ContactPoint& contact, const Mat3& frame,
-                                     double* h) const {
+                                     std::span<const Pose> poses, double* h) const {
   for (const int body : {contact.body_a, contact.body_b}) {
-    const Side& side = sides_[body];
-    const Freedom& freedom = *side.freedom;
+    const Freedom& freedom = *sides_[body].freedom;
     const double sign = body == contact.body_b ? 1.0 : -1.0;
     // The point moves with v + w x s, of which a row takes the part along its direction d: for the
     // translations d . axis, for the spin the triple product below.
@@ -91,8 +93,9 @@ void ProblemAssembler::write_contact(const ContactPoint& contact, const Mat3& fr
       for (int row = 0; row < Rows; ++row) *h++ = sign * frame.row(row).dot(freedom.axes.col(d));
     if (!freedom.rotation) continue;
     // d . R (w_B x s) = w_B . (s x R^T d): lever and direction in the body frame
-    const Vec3 lever = sign * (side.rotation.transpose() * (contact.position - side.position));
-    const Mat3 directions = side.rotation.transpose() * frame.transpose();
+    const Mat3 rotation = poses[body].rotation.toRotationMatrix();
+    const Vec3 lever = sign * (rotation.transpose() * (contact.position - poses[body].position));
+    const Mat3 directions = rotation.transpose() * frame.transpose();
     for (int row = 0; row < Rows; ++row) {
       const Vec3 turning = lever.cross(Vec3(directions.col(row)));
       for (int d = 0; d < 3; ++d) h[d * Rows + row] = turning[d];
@@ -126,30 +129,37 @@ void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionP
     problem.friction.push_back(mu);
   }
   dynamics.h.resize(entry);
-  frames_.resize(detected_.size());
+  first_tangents_.resize(detected_.size());
   row_begin_ = problem.row_begin;
 }
 
 void ProblemAssembler::assemble(const StepInput& step, FrictionProblem& problem) {
   problem.clear();
   problem.has_dynamics = true;
-  problem.dynamics.dof_begin = constant_.dof_begin;
-  problem.dynamics.mass_begin = constant_.mass_begin;
-  problem.dynamics.mass = constant_.mass;
+  write_masses(problem.dynamics);
   problem.dynamics.v_free = step.v_free;
   lay_out(step.contacts, problem);
   write_rows(step, problem);
   write_bias(step, problem);
 }
 
+/// Orthonormal axes and principal frames: the blocks are diagonal.
+void ProblemAssembler::write_masses(DynamicsForm& dynamics) const {
+  dynamics.dof_begin = dof_begin_;
+  int entries = 0;
+  for (size_t b = 0; b + 1 < dof_begin_.size(); ++b) {
+    const int dofs = dof_begin_[b + 1] - dof_begin_[b];
+    dynamics.mass_begin.push_back(entries += dofs * dofs);
+  }
+  dynamics.mass.assign(entries, 0.0);
+  for (int b = 0; b < dynamics.body_count(); ++b)
+    for (int d = 0, dofs = dynamics.body_dofs(b); d < dofs; ++d)
+      dynamics.mass[dynamics.mass_begin[b] + d * (dofs + 1)] = mass_[dof_begin_[b] + d];
+}
+
 /// The frames and the blocks of H. Each contact writes only what is its own: parts of the work go
 /// to any thread.
 void ProblemAssembler::write_rows(const StepInput& step, FrictionProblem& problem) {
-  const std::vector<Pose>& pose = step.state.pose;
-  for (size_t b = 0; b < pose.size(); ++b) {
-    sides_[b].rotation = pose[b].rotation.toRotationMatrix();
-    sides_[b].position = pose[b].position;
-  }
   DynamicsForm& dynamics = problem.dynamics;
   const int count = problem.contact_count();
   constexpr int contacts_of_part = 128;
@@ -159,12 +169,13 @@ void ProblemAssembler::write_rows(const StepInput& step, FrictionProblem& proble
       // The points of a pair have one normal.
       const bool is_same =
           k % contacts_of_part > 0 && contact.normal == step.contacts[detected_[k - 1]].normal;
-      frames_[k] = is_same ? frames_[k - 1] : contact_frame(contact.normal);
+      first_tangents_[k] = is_same ? first_tangents_[k - 1] : first_tangent(contact.normal);
+      const Mat3 frame = frame_of(contact.normal, first_tangents_[k]);
       double* block = dynamics.h.data() + dynamics.h_begin[k];
       if (problem.contact_rows(k) == 3)
-        write_contact<3>(contact, frames_[k], block);
+        write_contact<3>(contact, frame, step.state.pose, block);
       else
-        write_contact<1>(contact, frames_[k], block);
+        write_contact<1>(contact, frame, step.state.pose, block);
     }
   });
 }
@@ -208,15 +219,25 @@ void ProblemAssembler::prescribed_part(std::span<const ContactPoint> contacts, d
     const Vec3 velocity = prescribed_velocity(system_.bodies[contact.body_b], time) -
                           prescribed_velocity(system_.bodies[contact.body_a], time);
     const int n = row_begin_[k + 1] - row_begin_[k];
-    rows.segment(row_begin_[k], n) = (frames_[k] * velocity).head(n);
+    const Mat3 frame = frame_of(contact.normal, first_tangents_[k]);
+    rows.segment(row_begin_[k], n) = (frame * velocity).head(n);
   }
 }
 
-void ProblemAssembler::to_rows(std::span<const Vec3> world, Impulses& r) const {
+double ProblemAssembler::prescribed_power(std::span<const ContactPoint> contacts, double time,
+                                          const Impulses& r) {
+  if (!some_wall_is_prescribed_) return 0.0;
+  prescribed_part(contacts, time, u_before_);
+  return r.dot(u_before_);
+}
+
+void ProblemAssembler::to_rows(std::span<const Vec3> world, std::span<const ContactPoint> contacts,
+                               Impulses& r) const {
   r.resize(row_begin_.back());
   for (size_t k = 0; k < detected_.size(); ++k) {
     const int n = row_begin_[k + 1] - row_begin_[k];
-    r.segment(row_begin_[k], n) = (frames_[k] * world[detected_[k]]).head(n);
+    const Mat3 frame = frame_of(contacts[detected_[k]].normal, first_tangents_[k]);
+    r.segment(row_begin_[k], n) = (frame * world[detected_[k]]).head(n);
   }
 }
 
@@ -225,10 +246,11 @@ void ProblemAssembler::to_world(const Impulses& r, std::span<const ContactPoint>
   world.assign(contacts.size(), Vec3::Zero());
   for (size_t k = 0; k < detected_.size(); ++k) {
     Vec3& given = world[detected_[k]];
+    const Vec3& normal = contacts[detected_[k]].normal;
     if (row_begin_[k + 1] - row_begin_[k] == 3)
-      given = frames_[k].transpose() * r.segment<3>(row_begin_[k]);
+      given = frame_of(normal, first_tangents_[k]).transpose() * r.segment<3>(row_begin_[k]);
     else
-      given = frames_[k].row(0).transpose() * r[row_begin_[k]];
+      given = normal * r[row_begin_[k]];
   }
 }
 

@@ -23,7 +23,7 @@ struct StepInput {
   const MotionState& state;  ///< poses at which the contacts were detected, velocities at the
                              ///< beginning of the step
   std::span<const ContactPoint> contacts;
-  const Eigen::VectorXd& v_free;  ///< per unknown [m/s, rad/s]; copied
+  const Eigen::VectorXd& v_free;  ///< per unknown [m/s, rad/s]; copied, if it is not the problem's
   double h;                       ///< length of the step [s]
   double end_time;                ///< when prescribed walls are taken [s]
 };
@@ -54,38 +54,39 @@ class ProblemAssembler {
   /// / h.
   void assemble(const StepInput& step, FrictionProblem& problem);
 
-  /// Frames of the contacts assembled last, and which detected contact each one is (left-out points
-  /// have none).
-  std::span<const Mat3> frames() const { return frames_; }
+  /// Which detected contact each one assembled last is; left-out points are none.
   std::span<const int> detected() const { return detected_; }
 
   /// e u_N- <= 0 of each contact assembled last [m/s], which the normal row of its bias holds among
   /// the rest. Empty without restitution.
   std::span<const double> rebound() const { return rebound_; }
 
-  /// Velocity of prescribed walls seen at the contacts assembled last, in the contact frames, at
-  /// another time: the part of the relative velocity that is not H v. Rows as in the problem.
-  void prescribed_part(std::span<const ContactPoint> contacts, double time,
-                       Eigen::VectorXd& rows) const;
+  /// What the motion of prescribed walls at that time adds to r . u [J].
+  double prescribed_power(std::span<const ContactPoint> contacts, double time, const Impulses& r);
 
   /// World-frame impulses on body b <-> stacked rows of the problem assembled last.
-  void to_rows(std::span<const Vec3> world, Impulses& r) const;
+  void to_rows(std::span<const Vec3> world, std::span<const ContactPoint> contacts,
+               Impulses& r) const;
   void to_world(const Impulses& r, std::span<const ContactPoint> contacts,
                 std::vector<Vec3>& world) const;
 
  private:
+  /// Velocity of prescribed walls seen at the contacts assembled last, in the contact frames: the
+  /// part of the relative velocity that is not H v. Rows as in the problem.
+  void prescribed_part(std::span<const ContactPoint> contacts, double time,
+                       Eigen::VectorXd& rows) const;
   void lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem);
+  void write_masses(DynamicsForm& dynamics) const;
   void write_rows(const StepInput& step, FrictionProblem& problem);
   template <int Rows>
-  void write_contact(const ContactPoint& contact, const Mat3& frame, double* h) const;
+  void write_contact(const ContactPoint& contact, const Mat3& frame, std::span<const Pose> poses,
+                     double* h) const;
   void write_bias(const StepInput& step, FrictionProblem& problem);
 
   const MechanicalSystem& system_;
   WorkerTeam* team_ = nullptr;
   /// What a contact's rows need of a body, close together: bodies themselves are large.
   struct Side {
-    Mat3 rotation;  // R_WB at the assembled poses
-    Vec3 position;
     const Freedom* freedom;  // the same object for all bodies whose freedom is the same
     double wall_friction;    // below 0: no wall
   };
@@ -93,9 +94,8 @@ class ProblemAssembler {
   std::vector<int> problem_body_;  // body -> index among bodies with freedom, or -1
   std::vector<int> dof_begin_{0};
   std::vector<double> mass_;
-  DynamicsForm constant_;  // dof_begin, mass_begin, mass: the same in every step
   bool some_wall_is_prescribed_ = false;
-  std::vector<Mat3> frames_;
+  std::vector<Vec3> first_tangents_;  // T1 of the contacts assembled last
   std::vector<int> detected_;
   std::vector<int> row_begin_{0};
   Eigen::VectorXd v_before_, u_before_;

@@ -262,7 +262,7 @@ void ScalarSweep::prepare_bodies(const DynamicsForm& dynamics) {
   for (int b = 0; b < dynamics.body_count(); ++b) {
     double* w = free_velocity_[b].w;
     std::copy_n(dynamics.v_free.data() + dynamics.dof_begin[b], dynamics.body_dofs(b), w);
-    roots_[b].multiply_upper(w);
+    roots_[b].multiply_upper(dynamics.mass.data() + dynamics.mass_begin[b], w);
   }
   velocity_ = free_velocity_;
 }

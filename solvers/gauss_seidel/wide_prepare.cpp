@@ -84,6 +84,7 @@ void WideSweep::place_bodies(const DynamicsForm& dynamics) {
       is_shared_[dynamics.body_a[c]] = is_shared_[dynamics.body_b[c]] = 1;
     }
   row_of_body_.resize(is_wall_.size());
+  const int apart = size_of(team_) > 1 ? elements_apart<BodyRow<float>>() : 0;
   rows_ = 0;
   for (int slab = 0; slab < plan_.slabs(); ++slab) {
     Part& part = parts_[slab];
@@ -95,11 +96,11 @@ void WideSweep::place_bodies(const DynamicsForm& dynamics) {
     }
     part.bodies.count = rows_ - part.bodies.begin;
     part.nowhere = rows_++;
-    rows_ += elements_apart<BodyRow<float>>();
+    rows_ += apart;
   }
   for (Part& part : std::span(parts_).subspan(plan_.slabs())) {
     part.nowhere = rows_++;
-    rows_ += elements_apart<BodyRow<float>>();
+    rows_ += apart;
   }
 }
 
@@ -283,7 +284,7 @@ void WideSweep::free_bodies(const DynamicsForm& dynamics) {
     double* w = free_[row_of_body_[b]].w;
     const double* v = dynamics.v_free.data() + dynamics.dof_begin[b];
     std::copy_n(v, dynamics.body_dofs(b), w);
-    roots_[b].multiply_upper(w);
+    roots_[b].multiply_upper(dynamics.mass.data() + dynamics.mass_begin[b], w);
     if (!is_wall_[b]) std::copy_n(v, 3, w);
   }
 }

@@ -182,6 +182,7 @@ double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, const S
 
 double WideSweep::sweep_in_precision(const SearchStep* step) {
   if (single_begins_) error();
+  if (step && !in_single_ && search_begins_) start_search_in(exact_);
   ++unseen_;
   return in_single_ ? sweep_in(single_, kernels_->single, step)
                     : sweep_in(exact_, kernels_->exact, step);
@@ -189,12 +190,17 @@ double WideSweep::sweep_in_precision(const SearchStep* step) {
 
 template <typename Number>
 void WideSweep::start_search_in(State<Number>& state) {
+  search_begins_ = false;
   for_kinds([](auto& kind) { kind.search.assign(kind.groups.size(), {}); }, state);
   state.before = state.bodies;
   state.direction.assign(state.bodies.size(), {});
 }
 
-void WideSweep::start_search() { in_single_ ? start_search_in(single_) : start_search_in(exact_); }
+/// In double not before a sweep along it: most solves have none.
+void WideSweep::start_search() {
+  search_begins_ = !in_single_;
+  if (in_single_) start_search_in(single_);
+}
 
 double WideSweep::error() {
   if (!single_begins_ && !in_single_) return error_in(exact_, kernels_->exact);

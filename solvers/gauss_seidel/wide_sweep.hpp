@@ -179,8 +179,9 @@ class WideSweep final : public ContactSweep {
   bool single_begins_ = false;                ///< at the next look or sweep
   bool may_rest_ = true;                      ///< see choose_awake()
   bool in_single_ = false;
-  int unseen_ = 0;           ///< single sweeps since the last look in double
-  double seen_error_ = 0.0;  ///< that look's error
+  bool search_begins_ = false;  ///< in double, with the next sweep along it
+  int unseen_ = 0;              ///< single sweeps since the last look in double
+  double seen_error_ = 0.0;     ///< that look's error
 };
 
 }  // namespace ballast

@@ -120,7 +120,7 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
 
 SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start,
                             const Budget& budget) {
-  problem.validate(&masses_);
+  problem.validate(&judge_.masses());
   validate_start(problem, start);
   SolverRun run = attempt(solver, problem, std::move(start), budget, budget, true);
   if (budget.fclib) return run;  // its measure alone decides

@@ -57,7 +57,6 @@ class SolverRunner {
                     const Budget& left, const Budget& asked, bool prepares);
 
   ContactJudge judge_;
-  KnownMasses masses_;  // that were validated
 };
 
 }  // namespace ballast

@@ -57,8 +57,8 @@ TEST_CASE("tables agree with the polyhedron they come from") {
       CHECK(normal.dot(shape.bounds().ball_centre) + shape.faces().w(f) <=
             -shape.bounds().ball_radius + small);
       for (int k = 0; k < shape.corner_count(f); ++k) {
-        const int corner = shape.corner(f, k).vertex,
-                  next = shape.corner(f, (k + 1) % shape.corner_count(f)).vertex;
+        const std::uint16_t corner = shape.corner(f, k).vertex,
+                            next = shape.corner(f, (k + 1) % shape.corner_count(f)).vertex;
         const CollisionShape::Side side = shape.side(f, k);
         const CollisionShape::Edge edge = shape.edge(shape.corner(f, k).edge);
         CHECK(std::minmax(corner, next) == std::minmax(edge.tail, edge.head));

@@ -250,7 +250,7 @@ TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the
     for (int f = 0; f < other.faces().count(); ++f) {
       const auto corners =
           clipper.clip(pair, reference, face_table(*pair.shape[reference], face).view(),
-                       face_table(other, f).view(), clipping_thickness(c.size()));
+                       face_table(other, f).corners, clipping_thickness(c.size()));
       set_heights(corners, pair.shape[reference]->face(face));
       for (const ClippedPoint& p : corners)
         others += p.key != vertex_key(1 - reference, axis->support) && p.height <= reach;
@@ -287,7 +287,7 @@ TEST_CASE("two flat edges whose faces rise out of reach: clipping finds their cr
                                     beside_b = face_table(*pair.shape[1], meeting.face_b);
     const auto corners =
         clipper.clip(pair, reference, reference == 0 ? beside_a.view() : beside_b.view(),
-                     reference == 0 ? beside_b.view() : beside_a.view(),
+                     reference == 0 ? beside_b.corners : beside_a.corners,
                      clipping_thickness(c.size()), &direction);
     set_heights(corners, pair.shape[reference]->face(face), direction);
     const auto crossing = feature_key(PointKind::edges, feature.a, feature.b);

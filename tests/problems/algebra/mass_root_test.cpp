@@ -43,7 +43,7 @@ TEST_CASE("the mass root agrees with a dense Cholesky factor") {
                         product = x;
         root.solve_lower(lower.data());
         root.solve_upper(upper.data());
-        root.multiply_upper(product.data());
+        root.multiply_upper(mass.data(), product.data());
         REQUIRE((l * lower - x).norm() < 1e-13);
         REQUIRE((l.transpose() * upper - x).norm() < 1e-13);
         REQUIRE((product - l.transpose() * x).norm() < 1e-13);

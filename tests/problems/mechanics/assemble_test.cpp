@@ -86,8 +86,8 @@ TEST_CASE("H v is the relative velocity in the contact frame") {
   for (int c = 0; c < problem.contact_count(); ++c) {
     const ContactPoint& contact = f.contacts[c];
     const Vec3 expected =
-        assembler.frames()[c] * (f.material_velocity(contact.body_b, contact.position) -
-                                 f.material_velocity(contact.body_a, contact.position));
+        contact_frame(contact.normal) * (f.material_velocity(contact.body_b, contact.position) -
+                                         f.material_velocity(contact.body_a, contact.position));
     for (int row = 0; row < problem.contact_rows(c); ++row)
       CHECK(u[problem.row_begin[c] + row] == Approx(expected[row]).margin(1e-14));
   }
@@ -140,7 +140,7 @@ TEST_CASE("world impulses and rows are inverse to each other in the frame") {
   Impulses r = Impulses::LinSpaced(problem.row_count(), 1.0, 2.0), again;
   std::vector<Vec3> world;
   assembler.to_world(r, f.contacts, world);
-  assembler.to_rows(world, again);
+  assembler.to_rows(world, f.contacts, again);
   CHECK((r - again).norm() < 1e-14);
 }
 
@@ -180,7 +180,5 @@ TEST_CASE("a team assembles with the bits of one thread") {
     CHECK(problem.dynamics.h == expected.dynamics.h);
     CHECK(problem.dynamics.h_begin == expected.dynamics.h_begin);
     CHECK(problem.row_begin == expected.row_begin);
-    CHECK(std::equal(shared.frames().begin(), shared.frames().end(), alone.frames().begin(),
-                     alone.frames().end()));
   }
 }
