@@ -159,7 +159,7 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
   if (!(faces.lead[low.place] - 2.0 * turned > 2.0 * equal_cosines)) return Look::undecided;
   std::array<CollisionShape::Corner, most> corners;  // of which the names alone are read
   for (size_t k = 0; k < sides.size(); ++k)
-    corners[k] = {faces.corner[k].vertex, faces.corner[k].edge, {}};
+    corners[k] = {faces.corner[k].vertex, faces.corner[k].edge, Vec3::Zero()};
   points = manifold.points(
       pair, axis, {{reference, {corners.data(), sides.size()}, sides}, incident, support.position},
       alert, max_points);

@@ -41,7 +41,6 @@ const std::vector<std::pair<std::string, Words>> third_party = {
     {"nlopt.h", {"solvers/backends/nlopt", "tests/solvers/backends/nlopt"}},
     {"siconos/", {"solvers/backends/siconos"}},
     {"immintrin.h", {"solvers/gauss_seidel/lanes"}},  // the processor's own operations
-    {"malloc.h", {"experiments/commands/main"}},      // the GNU C library's own settings
     {"catch2/", {"tests/catch.hpp", "tests/test_main.cpp"}},
 };
 
