@@ -39,18 +39,6 @@ std::vector<PairForce> StoredState::pairs() const {
   return pairs;
 }
 
-std::vector<double> StoredState::relative_normal_forces() const {
-  std::vector<double> forces;
-  double sum = 0.0;
-  for (const PairForce& pair : pairs())
-    if (pair.body_a < system.grain_count && pair.body_b < system.grain_count) {
-      forces.push_back(pair.normal_force());
-      sum += forces.back();
-    }
-  for (double& force : forces) force *= static_cast<double>(forces.size()) / sum;
-  return forces;
-}
-
 Mat3 StoredState::stress() const {
   Mat3 sum = Mat3::Zero();
   // The Love-Weber formula: force times branch vector, from the centre of a to that of b.

@@ -51,8 +51,6 @@ struct StoredState {
   /// Forces between its bodies, whose contacts must be sorted by (a, b), as detection gives them.
   /// Pairs without a compressive force are left out.
   std::vector<PairForce> pairs() const;
-  /// Normal forces of grain-grain contacts over their mean.
-  std::vector<double> relative_normal_forces() const;
   /// 1/V sum f l^T over contacts, f on b by a, l from a's centre to b's (from the contact point
   /// where a is a wall), V between the walls of the box; symmetric part. Compression is positive
   /// [Pa].

@@ -139,7 +139,6 @@ std::span<const ReportSection> paper_sections() {
       {"fig11", {"frequency", "slowest", "force", "gravity", "mass"}},
       {"fig12", {"motion"}, fill_density},
       {"fig13", {"frequency", "slowest"}, fill_rates},
-      {"packing", {"motion"}, fill_packing},
       {"box", {"box"}},
       {"replicas", {"replicas"}, fill_replicas},
       {"tight", {"tightest", "rule", "frequency"}},

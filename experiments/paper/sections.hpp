@@ -175,7 +175,6 @@ void fill_velocities(PaperData& data, PaperSection& section);   ///< Fig. 6: gra
 void fill_chains(PaperData& data, PaperSection& section);       ///< Fig. 7: chains, stress
 void fill_portraits(PaperData& data, PaperSection& section);    ///< Fig. 8: phase portraits
 void fill_density(PaperData& data, PaperSection& section);      ///< Fig. 12: solid fraction
-void fill_packing(PaperData& data, PaperSection& section);  ///< how contact forces are distributed
 
 /// Writes the report of these sections into `folder`, each file beside and renamed. What gnuplot
 /// cannot draw becomes a notice. Throws Error.

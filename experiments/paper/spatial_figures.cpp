@@ -168,46 +168,6 @@ constexpr size_t passive = 0, jammed = 1, active = 2;
 /// "Nearly" horizontal or vertical [degrees].
 constexpr double nearly = 20.0;
 
-/// Histogram of f/<f>, as a density.
-class Histogram {
- public:
-  void add(const std::vector<double>& values) {
-    for (const double value : values) {
-      const auto bin = static_cast<size_t>(value / width);
-      if (bin < bins) counts_[bin] += 1.0;
-      total_ += 1.0;
-    }
-  }
-  bool is_empty() const { return total_ == 0.0; }
-  Curve curve(const char* title, Ink ink) const {
-    Curve result{.title = title, .ink = ink};
-    for (size_t k = 0; k < bins; ++k) {
-      if (counts_[k] == 0.0) continue;
-      result.x.push_back(middle(k));
-      result.y.push_back(counts_[k] / (total_ * width));
-    }
-    return result;
-  }
-  /// Decay of the tail: P ~ exp(-beta f/<f>) from the mean to six means.
-  double beta() const {
-    std::vector<double> x, y;
-    // Bins 4 to 23 reach from the mean force to six of them; nearly empty ones say nothing.
-    for (size_t k = 4; k < 24; ++k) {
-      if (counts_[k] <= 4.0) continue;
-      x.push_back(middle(k));
-      y.push_back(std::log(counts_[k]));
-    }
-    return -fit_line(x, y).slope;
-  }
-
- private:
-  static constexpr double width = 0.25;  // of a bin, in means
-  static constexpr size_t bins = 40;
-  static double middle(size_t bin) { return (static_cast<double>(bin) + 0.5) * width; }
-  std::array<double, bins> counts_{};
-  double total_ = 0.0;
-};
-
 }  // namespace
 
 void fill_velocities(PaperData& data, PaperSection& section) {
@@ -308,30 +268,6 @@ void fill_chains(PaperData& data, PaperSection& section) {
   }
   section.claim("fig7.passive", words, PaperRange::at_most(nearly), found(mean[passive]));
   section.claim("fig7.active", words, PaperRange::at_least(90.0 - nearly), found(mean[active]));
-}
-
-void fill_packing(PaperData& data, PaperSection& section) {
-  constexpr std::array<Ink, 3> inks{Ink::vermilion, Ink::green, Ink::blue};
-  std::array<Histogram, 3> forces;  // by phase
-  for (const MotionRun& run : read_motion(data))
-    for_each_state(run, [&](const StoredState& state) {
-      for (size_t k = 0; k < 3; ++k)
-        if (state.phase == phases[k].first) forces[k].add(state.relative_normal_forces());
-    });
-  Panel panel{.x_label = page::marked("*f*~n~ / ⟨*f*~n~⟩"),
-              .y_label = "probability density",
-              .log_y = true};
-  page::Text tails;
-  for (size_t k = 0; k < 3; ++k) {
-    if (forces[k].is_empty()) continue;
-    panel.curves.push_back(forces[k].curve(phases[k].second, inks[k]));
-    add_to_list(tails, std::string(phases[k].second) + " β = " + page::number(forces[k].beta()),
-                ", ");
-  }
-  if (panel.curves.empty())
-    section.notes.push_back("PARTIAL: no stored states.");
-  else
-    section.draw("forces", {.panels = {panel}}, {{"tails", tails}});
 }
 
 }  // namespace ballast

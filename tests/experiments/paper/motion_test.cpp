@@ -100,14 +100,3 @@ TEST_CASE("the major direction is found at every angle, and has no sign") {
     CHECK(major_inclination(tensor) == Approx(acute).margin(1e-9));
   }
 }
-
-TEST_CASE("forces over their mean are those between grains, walls left out") {
-  MotionState state;
-  const MechanicalSystem system = points_at({Vec3::Zero(), Vec3::UnitX(), Vec3(2, 0, 0)}, state);
-  const std::vector<ContactPoint> contacts{contact(0, 1, 1, Vec3::UnitX(), Vec3::Zero()),
-                                           contact(1, 2, 1, Vec3::UnitX(), Vec3::Zero()),
-                                           contact(3, 0, 1, Vec3::UnitX(), Vec3::Zero())};
-  const std::vector<Vec3> impulses{Vec3(1, 0, 0), Vec3(3, 0.5, 0), Vec3(9, 0, 0)};
-  CHECK(state_of(system, state, contacts, impulses, 1.0).relative_normal_forces() ==
-        std::vector<double>{0.5, 1.5});
-}
