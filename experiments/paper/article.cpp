@@ -52,7 +52,8 @@ bool typeset(const fs::path& folder, const std::string& suffix, std::vector<std:
   const ProgramResult result = run_program("pandoc", arguments, /*seconds=*/300.0);
   if (result.succeeded()) return true;
   notes << "ballast: " << target << " is not made: "
-        << (result.status == 127 ? "it needs what apt-packages-article.txt lists" : result.errors)
+        << (result.status == 127 ? "pandoc is missing (docs/manual/paper.md has the packages)"
+                                 : result.errors)
         << std::endl;
   return false;
 }
