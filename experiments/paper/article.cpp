@@ -37,18 +37,17 @@ std::vector<page::Picture> figures_in(std::string_view prose,
   std::vector<page::Picture> shown;
   for (const PaperSection& section : sections)
     for (const page::Picture& figure : section.figures)
-      if (prose.find("(figures/" + figure.plot.name + ")") != std::string_view::npos)
+      if (prose.find("(figures/" + figure.plot.name + ".svg)") != std::string_view::npos)
         shown.push_back(figure);
   return shown;
 }
 
-/// Pandoc in `folder`, with the figures' files of one kind. False: it is missing or failed.
+/// By Pandoc, in `folder`. False: it is missing or failed.
 bool typeset(const fs::path& folder, const std::string& suffix, std::vector<std::string> arguments,
              std::ostream& notes) {
   const std::string target = (folder / ("article." + suffix)).string();
   arguments.insert(arguments.end(), {"--standalone", "--resource-path=" + folder.string(),
-                                     "--default-image-extension=svg", "--output=" + target,
-                                     (folder / "article.md").string()});
+                                     "--output=" + target, (folder / "article.md").string()});
   const ProgramResult result = run_program("pandoc", arguments, /*seconds=*/300.0);
   if (result.succeeded()) return true;
   notes << "ballast: " << target << " is not made: "
@@ -74,18 +73,21 @@ std::string article_of(std::string_view prose, const page::Values& numbers) {
   }
 }
 
-ExitCode write_article(PaperData& data, const fs::path& folder, std::ostream& notes) {
-  const std::vector<PaperSection> sections = make_sections(data, "all");
+std::string article_of(const std::vector<PaperSection>& sections) {
   page::Values numbers;
   for (const PaperSection& section : sections)
     numbers.insert(section.numbers.begin(), section.numbers.end());
-  const std::string prose = article_prose(), text = article_of(prose, numbers);
+  return article_of(article_prose(), numbers);
+}
+
+ExitCode write_article(PaperData& data, const fs::path& folder, std::ostream& notes) {
+  const std::vector<PaperSection> sections = make_sections(data, "all");
   page::Page pictures;
   pictures.add({"figures", "", {}});
-  pictures.sections.back().add(figures_in(prose, sections));
+  pictures.sections.back().add(figures_in(article_prose(), sections));
   create_folder(folder);
   page::draw_pictures(pictures, folder, {.is_file_shown = true});
-  write_whole_file(folder / "article.md", text);
+  write_whole_file(folder / "article.md", article_of(sections));
   const bool html = typeset(folder, "html", {"--mathml", "--self-contained"}, notes),
              pdf = typeset(folder, "pdf", {"--pdf-engine=xelatex"}, notes);
   return html && pdf ? ExitCode::ok : ExitCode::backend_missing;

@@ -228,7 +228,10 @@ void PaperSection::report(const std::string& name, const page::Values& values) {
 }
 
 void PaperSection::keep(const std::string& name, const page::Values& values) {
-  for (const auto& [key, value] : values) numbers[name + "." + key] = value;
+  std::string place = name;  // the second finding of a name: "name:2"
+  for (int k = 2; !values.empty() && numbers.contains(place + "." + values.begin()->first); ++k)
+    place = name + ":" + std::to_string(k);
+  for (const auto& [key, value] : values) numbers[place + "." + key] = value;
 }
 
 void PaperSection::add(page::Table table) {

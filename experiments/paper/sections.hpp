@@ -79,7 +79,8 @@ struct PaperSection {
   /// Rows of the report's first tables: words("paper.agreement"), and words("paper.beyond") for
   /// what is beyond the paper, where there is nothing to agree with.
   std::vector<std::vector<page::Text>> claims = {}, findings = {};
-  /// Every value of its figures, claims and findings by "name.key": what the article cites.
+  /// Every value of its figures, claims and findings by "name.key", of the second finding of one
+  /// name "name:2.key": what the article cites.
   page::Values numbers = {};
 
   /// A figure with its captions: words(name.paper) and words(name.found). Unless `plot` has one,

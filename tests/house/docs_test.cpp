@@ -34,10 +34,8 @@ std::vector<Page> pages() {
 
 bool is_measured(const Page& page) { return page.path.string().starts_with("docs/measured/"); }
 
-/// `ballast paper report` writes it, a paragraph a line.
-bool is_generated(const Page& page) {
-  return is_measured(page) && page.path.parent_path().filename() == "paper";
-}
+/// `ballast paper article` writes it: numbers widen its lines.
+bool is_generated(const Page& page) { return page.path.string().starts_with("docs/article/"); }
 
 /// The lines of prose: no tables, no headings, no code (fenced or indented by four).
 std::vector<std::string> prose(const std::string& text) {

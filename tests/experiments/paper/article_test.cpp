@@ -2,8 +2,10 @@
 
 #include "experiments/paper/article.hpp"
 
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
 
@@ -17,4 +19,13 @@ TEST_CASE("numbers of the report stand in the prose in Pandoc's notation") {
 TEST_CASE("a number that the report has not, and a mark that is not closed, are errors") {
   CHECK_THROWS_WITH(article_of("C is {{fig9.c}}.", {}), Catch::Contains("no number fig9.c"));
   CHECK_THROWS_AS(article_of("C is {{fig9.c", {}), Error);
+}
+
+TEST_CASE("the published article has the numbers of the published rows") {
+  const TemporaryFolder folder;  // no run is there: the rows alone speak
+  const std::filesystem::path docs = BALLAST_SOURCE_FOLDER "/docs";
+  PaperData data(read_campaign({}), folder.path(),
+                 read_runs_csv(docs / "measured" / "decisive_runs.csv"));
+  // `ballast paper article --rows docs/measured/decisive_runs.csv --output docs/article`
+  CHECK(article_of(make_sections(data, "all")) == read_whole_file(docs / "article" / "article.md"));
 }
