@@ -385,6 +385,44 @@ void fill_curve(PaperData& data, PaperSection& section) {
   section.report("curve.bend", words);
 }
 
+void fill_theory(PaperData& data, PaperSection& section) {
+  Groups groups = data.settings(
+      "frequency; slowest; force; gravity; mass; gravity-mass; box; loads largest_size>0.04");
+  const auto log_mean = [](const Group& group, RunMeasure measure) {
+    return sample_mean(group.logs(measure)).mean;
+  };
+  std::erase_if(groups, [&](const Group& group) {
+    return !std::isfinite(log_mean(group, "prefactor") + log_mean(group, "prefactor_theory"));
+  });
+  const PooledError error = scatter_between(groups, "prefactor");
+  const auto count = static_cast<Eigen::Index>(groups.size());
+  if (count < 6 || error.degrees_of_freedom < 1) return;
+  // ln C on ln F/(m g), ln (m + m_w)/(m_w + M), and ln X besides
+  Eigen::MatrixXd design(count, 4);
+  Eigen::VectorXd y(count), errors(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Group& group = groups[k];
+    const double force = log_mean(group, "push_over_weight");
+    design.row(k) << 1.0, force, log_mean(group, "prefactor_theory") - 2.0 * force,
+        log_mean(group, "eq3");
+    y[k] = log_mean(group, "prefactor");
+    errors[k] = error.deviation / std::sqrt(static_cast<double>(group.samples.size()));
+  }
+  const WeightedFit free = fit_weighted(design.leftCols(3), y, errors),
+                    more = fit_weighted(design, y, errors);
+  const double t95 = student_t95(error.degrees_of_freedom);
+  const auto exponent = [&](const WeightedFit& fit, Eigen::Index k) {
+    const Eigen::VectorXd row = Eigen::VectorXd::Unit(fit.value.size(), k);
+    return words_of(Found::about(fit.at(row), t95 * fit.error_at(row)));
+  };
+  section.report("theory.free", {{"points", std::to_string(count)},
+                                 {"force", exponent(free, 1)},
+                                 {"mass", exponent(free, 2)},
+                                 {"misfit", words_of(misfit_of(free, error))},
+                                 {"x", exponent(more, 3)},
+                                 {"gain", words_of(improvement(free, more), "F")}});
+}
+
 void add_laws(PaperData& data, PaperSection& section) {
   page::Table table = page::words_table("laws");
   static const std::vector<Law> laws = all_laws();

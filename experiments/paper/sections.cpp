@@ -151,7 +151,7 @@ std::span<const ReportSection> paper_sections() {
       {"laws", {"laws"}},
       {"sensitivity", {"sensitivity"}},
       {"reading", {"reading", "frequency", "slowest"}, fill_reading},
-      {"theory", {"frequency", "force", "gravity", "mass", "box"}}};
+      {"theory", {"frequency", "force", "gravity", "mass", "box", "loads"}, fill_theory}};
   return table;
 }
 

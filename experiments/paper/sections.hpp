@@ -163,8 +163,9 @@ void add_laws(PaperData& data, PaperSection& section);
 void add_cases(PaperData& data, PaperSection& section);
 
 // what fills sections besides
-void fill_curve(PaperData& data, PaperSection& section);  ///< all that is varied on one curve
-void fill_rates(PaperData& data, PaperSection& section);  ///< Fig. 13 (Eqs. 4 and 5)
+void fill_curve(PaperData& data, PaperSection& section);   ///< all that is varied on one curve
+void fill_theory(PaperData& data, PaperSection& section);  ///< exponents of F and of the mass
+void fill_rates(PaperData& data, PaperSection& section);   ///< Fig. 13 (Eqs. 4 and 5)
 void fill_replicas(PaperData& data, PaperSection& section);
 void fill_reading(PaperData& data, PaperSection& section);      ///< both scenes beside the paper
 void fill_preparation(PaperData& data, PaperSection& section);  ///< deposits beside the paper

@@ -1,6 +1,7 @@
 // Sections that are rows of the tables of laws and cases, on runs that follow a law: they must find
 // it again.
 
+#include "platform/text.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -169,4 +170,26 @@ TEST_CASE("C against its theory: the force that the grains push with gives it, p
   CHECK(points == 23);
   CHECK_THAT(found_of(section, "C against its theory, 23 distinct points"),
              Catch::StartsWith("C as seen is "));
+}
+
+TEST_CASE("what C goes with: the exponents that rows were made with are found again") {
+  std::vector<RunRow> rows;
+  for (int setting = 0; setting < 8; ++setting)
+    for (const int seed : {1, 2}) {
+      RunRow& row = rows.emplace_back();
+      row.stage = "frequency";
+      row.name = printed("frequency-%d-grains.seed=%d", setting, seed);
+      row.key = printed("%d-%d", setting, seed);
+      // force, mass and X vary apart from each other; seeds scatter by one per cent
+      const double force = 0.1 * (1 + setting % 4), mass = 1.0 + 0.5 * (setting / 4);
+      row["seed"] = seed;
+      row["push_over_weight"] = force;
+      row["prefactor_theory"] = 0.228 * force * force * mass;
+      row["eq3"] = 1e-3 * std::pow(10.0, setting % 3);
+      row["prefactor"] = 0.3 * std::pow(force, 1.7) * std::pow(mass, 0.9) * (0.995 + 0.01 * seed);
+    }
+  PaperData data({}, "nowhere", rows);
+  const std::string found = found_of(section_named(data, "theory"), "what C goes with");
+  CHECK_THAT(found, Catch::StartsWith("8 settings: F/(m g) to the power 1.70 "));
+  CHECK_THAT(found, Catch::Contains("(m + m_w)/(m_w + M) to 0.900 "));
 }
