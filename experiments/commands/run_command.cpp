@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <set>
 
@@ -186,15 +187,13 @@ ExitCode run_stages(const PaperData& data, const PaperOptions& options) {
 }
 
 ExitCode reproduce(PaperOptions options) {
-  const std::vector<std::string> without_runs{"plan", "report", "article"};
   const std::vector<PlannedRun> campaign = read_campaign(options.campaign);
-  const std::vector<std::string> targets = paper_targets(campaign);
-  const bool is_target = std::find(targets.begin(), targets.end(), options.target) != targets.end();
-  if (!is_target && std::ranges::find(without_runs, options.target) == without_runs.end())
-    throw UsageError("paper: '" + options.target + "' is none of " + joined(without_runs) + ", " +
-                     joined(targets));
+  std::vector<std::string> targets{"plan", "report", "article"};
+  std::ranges::copy(paper_targets(campaign), std::back_inserter(targets));
+  if (std::ranges::find(targets, options.target) == targets.end())
+    throw UsageError("paper: '" + options.target + "' is none of " + joined(targets));
   if (options.output.empty()) options.output = options.running.results / "report";
-  const PaperData known = data_of(campaign, options);
+  PaperData known = data_of(campaign, options);
   if (known.foreign() > 0)
     std::cerr << "ballast: " << options.rows.string() << ": " << known.foreign()
               << " rows are of no run of this campaign and drawn as they are" << std::endl;
@@ -203,8 +202,7 @@ ExitCode reproduce(PaperOptions options) {
     return ExitCode::ok;
   }
   if (options.target == "article") {
-    PaperData data = data_of(campaign, options);
-    const ExitCode code = write_article(data, options.output, std::cerr);
+    const ExitCode code = write_article(known, options.output, std::cerr);
     std::cout << "article in " << (options.output / "article.md").string() << std::endl;
     return code;
   }

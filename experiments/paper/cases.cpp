@@ -34,6 +34,7 @@ struct CaseTable {
   RunMeasure along = "frequency";                        ///< what the rows of a case are at
   RunMeasure exponent_along = "";                        ///< empty: no exponents
   bool has_changes = false;                              ///< of each case beside the first
+  bool has_numbers = false;                              ///< the paper's, beside each case
 };
 
 /// In the order of a section's tables. Rows of 23 November 2026 and before are recognised by their
@@ -79,7 +80,9 @@ const CaseTable case_tables[] = {
       {"lid placed, μ 0.8", "preparation lid_pressure=0 deposit_friction=0.8"},
       {"a shorter fall, lid placed, μ 0.4", "preparation name~fall"}},
      "frequency",
-     "frequency"},
+     "frequency",
+     false,
+     true},
     {"shapes",
      {{"as the campaign’s",
        "shapes name~base; deposits lid_pressure>0 deposit_friction=0.4 iterations_most=200"},
@@ -260,17 +263,13 @@ void add_numbers(const std::vector<Case>& cases, PaperSection& section) {
   section.add(table);
 }
 
-std::vector<Case> cases_of(PaperData& data, const CaseTable& what) {
+void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
   std::vector<Case> cases;
   for (const auto& [name, rows] : what.cases)
     if (Groups groups = data.groups(rows, what.along); !groups.empty())
       cases.push_back({name, std::move(groups)});
-  return cases;
-}
-
-void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
-  const std::vector<Case> cases = cases_of(data, what);
   if (cases.empty()) return;
+  if (what.has_numbers) add_numbers(cases, section);
   section.add(stage_table(cases, unit_behind(what.along)));
   if (!what.exponent_along.empty()) add_exponents(what, cases, section);
   if (what.has_changes) add_changes(what, cases, section);
@@ -313,11 +312,6 @@ void fill_reading(PaperData& data, PaperSection& section) {
   Groups base = data.groups("frequency; slowest", "frequency");
   std::erase_if(base, [&](const Group& group) { return !at(reading, group.value); });
   add_numbers({{"vibrated_box", base}, {"vibrated_box_paper", reading}}, section);
-}
-
-void fill_preparation(PaperData& data, PaperSection& section) {
-  for (const CaseTable& what : case_tables)
-    if (section.id == what.section) add_numbers(cases_of(data, what), section);
 }
 
 }  // namespace ballast

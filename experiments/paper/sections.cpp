@@ -143,7 +143,7 @@ std::span<const ReportSection> paper_sections() {
       {"replicas", {"replicas"}, fill_replicas},
       {"tight", {"tightest", "rule", "frequency"}},
       {"deposits", {"deposits"}},
-      {"preparation", {"preparation", "reading"}, fill_preparation},
+      {"preparation", {"preparation", "reading"}},
       {"compaction", {"compaction"}, fill_compaction},
       {"loads", {"loads"}},
       {"shapes", {"shapes"}},
@@ -215,8 +215,9 @@ void PaperSection::draw(const std::string& name, Figure plot, const page::Values
 
 void PaperSection::claim(const std::string& name, const page::Values& values,
                          const PaperRange& range, const Found& found) {
-  keep(name, values);
-  numbers[name + ".found"] = words_of(found);
+  page::Values cited = values;
+  cited["found"] = words_of(found);
+  keep(name, cited);
   const std::vector<page::Text> cells = parts_of(page::words(name, values), "||");
   claims.push_back({cells.at(0), cells.at(1), word_of(agreement_of(range, found)), cells.at(2),
                     words_of(range), words_of(found)});

@@ -167,16 +167,15 @@ void fill_curve(PaperData& data, PaperSection& section);   ///< all that is vari
 void fill_theory(PaperData& data, PaperSection& section);  ///< exponents of F and of the mass
 void fill_rates(PaperData& data, PaperSection& section);   ///< Fig. 13 (Eqs. 4 and 5)
 void fill_replicas(PaperData& data, PaperSection& section);
-void fill_reading(PaperData& data, PaperSection& section);      ///< both scenes beside the paper
-void fill_preparation(PaperData& data, PaperSection& section);  ///< deposits beside the paper
-void fill_compaction(PaperData& data, PaperSection& section);   ///< the rate by three windows
-void fill_motion(PaperData& data, PaperSection& section);       ///< Fig. 3: x(t), first contraction
-void fill_forces(PaperData& data, PaperSection& section);       ///< Fig. 4: f_g(x), the jam
-void fill_model(PaperData& data, PaperSection& section);        ///< Fig. 5: Eq. 2 integrated
-void fill_velocities(PaperData& data, PaperSection& section);   ///< Fig. 6: grains, the roll
-void fill_chains(PaperData& data, PaperSection& section);       ///< Fig. 7: chains, stress
-void fill_portraits(PaperData& data, PaperSection& section);    ///< Fig. 8: phase portraits
-void fill_density(PaperData& data, PaperSection& section);      ///< Fig. 12: solid fraction
+void fill_reading(PaperData& data, PaperSection& section);     ///< both scenes beside the paper
+void fill_compaction(PaperData& data, PaperSection& section);  ///< the rate by three windows
+void fill_motion(PaperData& data, PaperSection& section);      ///< Fig. 3: x(t), first contraction
+void fill_forces(PaperData& data, PaperSection& section);      ///< Fig. 4: f_g(x), the jam
+void fill_model(PaperData& data, PaperSection& section);       ///< Fig. 5: Eq. 2 integrated
+void fill_velocities(PaperData& data, PaperSection& section);  ///< Fig. 6: grains, the roll
+void fill_chains(PaperData& data, PaperSection& section);      ///< Fig. 7: chains, stress
+void fill_portraits(PaperData& data, PaperSection& section);   ///< Fig. 8: phase portraits
+void fill_density(PaperData& data, PaperSection& section);     ///< Fig. 12: solid fraction
 
 /// Writes the report of these sections into `folder`, each file beside and renamed. What gnuplot
 /// cannot draw becomes a notice. Throws Error.
