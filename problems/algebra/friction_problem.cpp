@@ -98,7 +98,6 @@ void DynamicsForm::clear() {
   body_a.clear();
   body_b.clear();
   h_begin.assign(1, 0);
-  h.clear();
 }
 
 void FrictionProblem::clear() {

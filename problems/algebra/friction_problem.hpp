@@ -66,7 +66,7 @@ struct DynamicsForm {
   /// problem sizes v_free himself.
   int add_body(const Eigen::MatrixXd& block);
 
-  /// No bodies, no contacts. v_free and bias keep their storage: whoever refills the problem
+  /// No bodies, no contacts. v_free, bias and h keep their sizes: whoever refills the problem
   /// resizes them, and nothing is allocated while the sizes stay.
   void clear();
 };

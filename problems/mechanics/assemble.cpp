@@ -134,9 +134,7 @@ void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionP
 }
 
 void ProblemAssembler::assemble(const StepInput& step, FrictionProblem& problem) {
-  std::vector<double> h = std::move(problem.dynamics.h);  // written anew, and not cleared before
   problem.clear();
-  problem.dynamics.h = std::move(h);
   problem.has_dynamics = true;
   write_masses(problem.dynamics);
   problem.dynamics.v_free = step.v_free;
