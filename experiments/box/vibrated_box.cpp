@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "geometry/shape/mesh_file.hpp"
 #include "geometry/shape/pose.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"

@@ -21,21 +21,23 @@ void export_obj(const MechanicalSystem& system, const MotionState& state, const 
                      system.grain_count, state.time, state.step));
   int first = 1;  // OBJ counts vertices from 1, through the whole file
   for (int b = 0; b < system.grain_count; ++b) {
-    const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
     std::string name = system.bodies[b].name;  // blanks would split it
     std::ranges::replace_if(
         name, [](unsigned char c) { return c <= ' '; }, '_');
     file.write("o " + name + "\n");
-    for (const Vec3& vertex : shape.vertices()) {
-      const Vec3 place = state.pose[b] * vertex;
-      file.write(printed("v %.17g %.17g %.17g\n", place.x(), place.y(), place.z()));
+    for (const ConvexPart& part : convex_parts(system.bodies[b].shape)) {
+      const Polyhedron& shape = *part.polyhedron;
+      for (const Vec3& vertex : shape.vertices()) {
+        const Vec3 place = state.pose[b] * (part.pose * vertex);
+        file.write(printed("v %.17g %.17g %.17g\n", place.x(), place.y(), place.z()));
+      }
+      for (int f = 0; f < shape.face_count(); ++f) {
+        file.write("f");
+        for (const int v : shape.face(f)) file.write(printed(" %d", first + v));
+        file.write("\n");
+      }
+      first += shape.vertex_count();
     }
-    for (int f = 0; f < shape.face_count(); ++f) {
-      file.write("f");
-      for (const int v : shape.face(f)) file.write(printed(" %d", first + v));
-      file.write("\n");
-    }
-    first += shape.vertex_count();
   }
   file.commit();
 }
@@ -99,16 +101,19 @@ void write_grains_vtp(const MechanicalSystem& system, const MotionState& state,
   std::vector<std::int32_t> grain;
   // cell data stand once for each face: all faces of a grain carry the grain's
   for (int b = 0; b < system.grain_count; ++b) {
-    const Polyhedron& shape = *system.bodies[b].shape.polyhedron;
-    const auto first = static_cast<std::int32_t>(cells.points.size() / 3);
-    for (const Vec3& vertex : shape.vertices()) append(cells.points, state.pose[b] * vertex);
-    for (int f = 0; f < shape.face_count(); ++f) {
-      for (const int v : shape.face(f)) cells.connectivity.push_back(first + v);
-      cells.offsets.push_back(static_cast<std::int32_t>(cells.connectivity.size()));
-      grain.push_back(b);
-      mass.push_back(static_cast<float>(system.bodies[b].mass));
-      speed.push_back(static_cast<float>(state.velocity[b].norm()));
-      append(velocity, state.velocity[b]);
+    for (const ConvexPart& part : convex_parts(system.bodies[b].shape)) {
+      const Polyhedron& shape = *part.polyhedron;
+      const auto first = static_cast<std::int32_t>(cells.points.size() / 3);
+      for (const Vec3& vertex : shape.vertices())
+        append(cells.points, state.pose[b] * (part.pose * vertex));
+      for (int f = 0; f < shape.face_count(); ++f) {
+        for (const int v : shape.face(f)) cells.connectivity.push_back(first + v);
+        cells.offsets.push_back(static_cast<std::int32_t>(cells.connectivity.size()));
+        grain.push_back(b);
+        mass.push_back(static_cast<float>(system.bodies[b].mass));
+        speed.push_back(static_cast<float>(state.velocity[b].norm()));
+        append(velocity, state.velocity[b]);
+      }
     }
   }
   write_vtp(path, state.time, "Polys", cells, [&](AtomicFile& file) {

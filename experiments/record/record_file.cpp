@@ -34,8 +34,9 @@ void carry_bodies(State& state, Carry&& carry) {
 /// Bodies and shapes as the datasets of record.h5.
 struct SystemTables {
   std::vector<std::string> name;
-  std::vector<double> mass, volume, inertia, wall_normal, vertices;
-  std::vector<std::int32_t> shape, triangles, vertex_begin{0}, triangle_begin{0};
+  std::vector<double> mass, volume, inertia, wall_normal, vertices, part_position, part_rotation;
+  std::vector<std::int32_t> shape, triangles, vertex_begin{0}, triangle_begin{0}, part_body,
+      part_shape;
 
   /// Calls with(dataset, values, numbers in a row, unit, description) for all but the names.
   template <class With>
@@ -44,7 +45,8 @@ struct SystemTables {
     with("bodies/volume", volume, 1, "m^3", "volume; 0 for walls");
     with("bodies/inertia", inertia, 3, "kg m^2", "principal moments of inertia");
     with("bodies/wall_normal", wall_normal, 3, "1", "body frame, into the free side; 0 for grains");
-    with("bodies/shape", shape, 1, "1", "number of the shape in /shapes; -1 for walls");
+    with("bodies/shape", shape, 1, "1",
+         "number of the shape in /shapes; -1 for walls; of a body of parts their hull");
     // All shapes in four datasets: a group for each shape took HDF5 20 MB for 1200 of them.
     with("shapes/vertices", vertices, 3, "m", "body frame; shape after shape");
     with("shapes/triangles", triangles, 3, "1",
@@ -54,6 +56,16 @@ struct SystemTables {
     with("shapes/triangle_begin", triangle_begin, 1, "1",
          "shape k has the triangles triangle_begin[k] to triangle_begin[k + 1]");
   }
+
+  /// The same for the parts of bodies that have some; a record without has no group of them.
+  template <class With>
+  void each_of_parts(With&& with) {
+    with("parts/body", part_body, 1, "1", "number of the body that the part belongs to");
+    with("parts/shape", part_shape, 1, "1", "number of its shape in /shapes");
+    with("parts/position", part_position, 3, "m", "of the shape's frame, in the body frame");
+    with("parts/rotation", part_rotation, 4, "1",
+         "unit quaternion w x y z: from the shape's frame to the body frame");
+  }
 };
 
 void add_system(Hdf5Writer& file, const MechanicalSystem& system) {
@@ -61,7 +73,8 @@ void add_system(Hdf5Writer& file, const MechanicalSystem& system) {
   std::map<const Polyhedron*, std::int32_t> shape_index;
   for (const auto& pointer : system.shapes) {
     const Polyhedron& shape = *pointer;
-    shape_index.emplace(&shape, static_cast<std::int32_t>(shape_index.size()));
+    const auto number = static_cast<std::int32_t>(shape_index.size());
+    if (!shape_index.emplace(&shape, number).second) continue;  // of several bodies
     for (const Vec3& vertex : shape.vertices())
       tables.vertices.insert(tables.vertices.end(), vertex.begin(), vertex.end());
     for (int f = 0; f < shape.face_count(); ++f) {
@@ -82,17 +95,29 @@ void add_system(Hdf5Writer& file, const MechanicalSystem& system) {
     tables.wall_normal.insert(tables.wall_normal.end(), normal.begin(), normal.end());
     // bodies that share a shape name the same one
     tables.shape.push_back(body.is_wall() ? -1 : shape_index.at(body.shape.polyhedron));
+    for (const ConvexPart& part : body.shape.parts) {
+      tables.part_body.push_back(static_cast<std::int32_t>(tables.shape.size()) - 1);
+      tables.part_shape.push_back(shape_index.at(part.polyhedron));
+      const Vec3& p = part.pose.position;
+      const Quat& q = part.pose.rotation;
+      tables.part_position.insert(tables.part_position.end(), p.begin(), p.end());
+      tables.part_rotation.insert(tables.part_rotation.end(), {q.w(), q.x(), q.y(), q.z()});
+    }
   }
   file.add_group("bodies");
   file.add_group("shapes");
   file.add("bodies/name", tables.name);
-  tables.each([&](const char* name, const auto& values, size_t columns, const char* unit,
-                  const char* description) {
+  const auto add = [&](const char* name, const auto& values, size_t columns, const char* unit,
+                       const char* description) {
     Hdf5Shape shape{values.size() / columns};
     if (columns > 1) shape.push_back(columns);
     file.add(name, values, shape);
     describe(file, name, unit, description);
-  });
+  };
+  tables.each(add);
+  if (tables.part_body.empty()) return;
+  file.add_group("parts");
+  tables.each_of_parts(add);
 }
 
 /// Throws Error unless the group has so many rows of the layout.
@@ -339,6 +364,18 @@ std::vector<std::shared_ptr<const Polyhedron>> shapes_of(const SystemTables& tab
   return shapes;
 }
 
+void give_parts(const SystemTables& tables, const Hdf5Reader& file, MechanicalSystem& system) {
+  for (size_t k = 0; k < tables.part_body.size(); ++k) {
+    const int body = tables.part_body[k], shape = tables.part_shape[k];
+    if (body < 0 || body >= system.grain_count || shape < 0 ||
+        shape >= static_cast<int>(system.shapes.size()))
+      file.fail("parts: number " + std::to_string(k) + " names no body or no shape");
+    const double* q = tables.part_rotation.data() + 4 * k;
+    const Pose pose{Vec3(tables.part_position.data() + 3 * k), Quat(q[0], q[1], q[2], q[3])};
+    system.bodies[body].shape.parts.push_back({system.shapes[shape].get(), pose});
+  }
+}
+
 }  // namespace
 
 MechanicalSystem read_record_system(const std::filesystem::path& path) {
@@ -346,14 +383,19 @@ MechanicalSystem read_record_system(const std::filesystem::path& path) {
   SystemTables tables;
   tables.name = file.read_texts("bodies/name");
   const size_t count = tables.name.size();
-  tables.each([&](std::string_view name, auto& values, size_t columns, auto...) {
+  size_t rows = count;
+  const auto read = [&](std::string_view name, auto& values, size_t columns, auto...) {
     if constexpr (std::is_same_v<decltype(values), std::vector<double>&>)
       values = file.read_doubles(name.data());
     else
       values = file.read_ints(name.data());
-    if (name.starts_with("bodies") && values.size() != columns * count)
-      file.fail("the datasets of /bodies do not fit together");
-  });
+    if (name == "parts/body") rows = values.size();
+    if (!name.starts_with("shapes") && values.size() != columns * rows)
+      file.fail("the datasets of /" + std::string(name.substr(0, name.find('/'))) +
+                " do not fit together");
+  };
+  tables.each(read);
+  if (file.has("parts/body")) tables.each_of_parts(read);
   MechanicalSystem system;
   system.shapes = shapes_of(tables, file);
   for (size_t b = 0; b < count; ++b) {
@@ -374,6 +416,7 @@ MechanicalSystem read_record_system(const std::filesystem::path& path) {
     }
     system.bodies.push_back(std::move(body));
   }
+  give_parts(tables, file, system);
   return system;
 }
 

@@ -33,7 +33,8 @@ std::uint64_t system_key(const MechanicalSystem& system) {
     if (body.is_wall())
       hash = add_bits(hash, body.shape.plane.normal);
     else
-      for (const Vec3& vertex : body.shape.polyhedron->vertices()) hash = add_bits(hash, vertex);
+      for (const ConvexPart& part : convex_parts(body.shape))
+        for (const Vec3& vertex : part.polyhedron->vertices()) hash = add_bits(hash, vertex);
   }
   return hash;
 }

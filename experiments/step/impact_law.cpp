@@ -38,14 +38,13 @@ void ImpactLaw::measure(FrictionProblem& problem, const SolverRun& run, const Ei
 }
 
 /// The factor by which the island's scale must fall; 1 where it takes enough energy.
-double ImpactLaw::lowering_factor(const FrictionProblem& problem,
-                                  const std::vector<int>& contacts) const {
+double ImpactLaw::lowering_factor(const FrictionProblem& problem, size_t island) const {
   // L_0 and L, and along r_0 + t (r - r_0): L(t) = L_0 - slope t - curvature t^2 / 2.
   double inelastic = 0.0, rebounding = 0.0, slope = 0.0, curvature = 0.0, impulse = 0.0;
   int rows = 0;
   // With delta = r - r_0 and W symmetric, r_0 . W delta = delta . (u_0 - u_free): that is why the
   // slope needs delta . u_0 alone, and the curvature delta . (u - u_0).
-  for (const int c : contacts)
+  for (const int c : islands_[island])
     for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) {
       const double r0 = inelastic_.r[row], r1 = rebounding_.r[row];
       const double u0 = inelastic_.u[row], u1 = rebounding_.u[row];
@@ -59,7 +58,7 @@ double ImpactLaw::lowering_factor(const FrictionProblem& problem,
   // Energies are known to the solves' errors times the impulses.
   const double error = inelastic_.error + rebounding_.error;
   const double known_to = 1e-9 * std::abs(inelastic) + error * std::sqrt(impulse * rows);
-  const double e2 = restitution_ * restitution_;
+  const double e2 = e_[island] * e_[island];
   if (rebounding >= (1.0 - e2) * inelastic - known_to) return 1.0;
   if (!(curvature > 0.0) || !(inelastic > 0.0)) return 0.0;
   // The positive root of L(t) = (1 - e^2) L_0, that is of slope t + curvature t^2 / 2 = e^2 L_0.
@@ -72,19 +71,20 @@ bool ImpactLaw::lower_restitution(const FrictionProblem& problem, bool to_zero) 
   bool fell = false;
   for (size_t i = 0; i < islands_.size(); ++i) {
     if (e_factor_[i] == 0.0) continue;
-    const double factor = lowering_factor(problem, islands_[i]);
+    const double factor = lowering_factor(problem, i);
     if (factor == 1.0) continue;
     e_factor_[i] *= to_zero ? 0.0 : factor;
-    least_ = std::min(least_, e_factor_[i] * restitution_);
+    least_ = std::min(least_, e_factor_[i] * e_[i]);
     fell = true;
   }
   return fell;
 }
 
 SolverRun ImpactLaw::solve(SolverRunner& runner, Solver& solver, FrictionProblem& problem,
-                           std::span<const double> rebound, Impulses start, const Budget& budget) {
+                           std::span<const double> rebound, std::span<const double> restitution,
+                           Impulses start, const Budget& budget) {
   constexpr int most_lowerings = 5;
-  least_ = restitution_;
+  least_ = highest_;
   if (std::none_of(rebound.begin(), rebound.end(), [](double x) { return x < 0.0; }))
     return runner.run(solver, problem, std::move(start), budget);
   // The bias holds the walls' motion and Newton's e u_N-. The latter can be scaled island by
@@ -93,6 +93,9 @@ SolverRun ImpactLaw::solve(SolverRunner& runner, Solver& solver, FrictionProblem
   for (int c = 0; c < problem.contact_count(); ++c) walls_[problem.row_begin[c]] -= rebound[c];
   islands_ = contact_islands(problem);
   e_factor_.assign(islands_.size(), 1.0);
+  e_.assign(islands_.size(), 0.0);
+  for (size_t i = 0; i < islands_.size(); ++i)
+    for (const int c : islands_[i]) e_[i] = std::max(e_[i], restitution[c]);
 
   // The inelastic impact, for what it takes.
   problem.dynamics.bias = walls_;

@@ -23,15 +23,19 @@ namespace ballast {
 
 class ImpactLaw {
  public:
-  explicit ImpactLaw(double restitution) : restitution_(restitution) {}
+  /// `highest`: of all coefficients of restitution.
+  explicit ImpactLaw(double highest) : highest_(highest) {}
 
   /// Solves `problem`, in whose bias the normal row of contact c holds rebound[c] = e u_N- <= 0
-  /// among the rest; the bias is left as it was solved with. Two solves where something rebounds,
+  /// among the rest, e = restitution[c]; the bias is left as it was solved with. An island's e is
+  /// the highest of its contacts'. Two solves where something rebounds,
   /// some more where e is lowered. Throws as SolverRunner::run.
   SolverRun solve(SolverRunner& runner, Solver& solver, FrictionProblem& problem,
-                  std::span<const double> rebound, Impulses start, const Budget& budget);
+                  std::span<const double> rebound, std::span<const double> restitution,
+                  Impulses start, const Budget& budget);
 
-  /// The lowest coefficient in force in the last solve(): the scene's, or what it was lowered to.
+  /// The lowest coefficient in force in the last solve(): the highest of all, or what an island's
+  /// was lowered to.
   double least_restitution() const { return least_; }
 
  private:
@@ -44,11 +48,12 @@ class ImpactLaw {
   void measure(FrictionProblem& problem, const SolverRun& run, const Eigen::VectorXd& v,
                Impact& impact) const;
   bool lower_restitution(const FrictionProblem& problem, bool to_zero);
-  double lowering_factor(const FrictionProblem& problem, const std::vector<int>& contacts) const;
+  double lowering_factor(const FrictionProblem& problem, size_t island) const;
   void set_bias(FrictionProblem& problem, std::span<const double> rebound) const;
 
-  double restitution_, least_ = 0.0;
+  double highest_, least_ = 0.0;
   std::vector<std::vector<int>> islands_;  ///< contacts of each
+  std::vector<double> e_;                  ///< per island
   std::vector<double> e_factor_;           ///< of e, per island
   Eigen::VectorXd newton_, walls_, u_free_;
   Impact inelastic_, rebounding_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/contact/broad_phase.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
@@ -14,8 +15,13 @@ namespace {
 /// Bound on how far any point of the body moves in h, with what gravity and forces of the order of
 /// g may add.
 double reach_of(const RigidBody& body, const MotionState& state, size_t b, double h, double g) {
-  if (body.shape.fixed && body.wall.motion != WallMotion::prescribed) return 0.0;
   const double radius = body.shape.polyhedron ? body.shape.polyhedron->circumradius() : 0.0;
+  if (body.imposed) {
+    const Pose next = body.imposed->motion.pose_at(state.time + 1.5 * h, body.imposed->start);
+    const Travel travel = step_bound(state.pose[b], next);
+    return travel.shift + travel.turn * radius;
+  }
+  if (body.shape.fixed) return 0.0;
   // No point of the body is faster than |v| + |w| R; gravity and forces like it add 2 g h at most.
   return h * (state.velocity[b].norm() + state.spin[b].norm() * radius + 2.0 * g * h);
 }
@@ -49,11 +55,11 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int
       velocity_scale_(velocity_scale(scene)),
       spec_(scene.solver),
       driven_wall_(driven_wall),
-      detector_(contact_shapes(system), scene.detection),
+      detector_(contact_shapes(system), scene.detection, system.period),
       assembler_(system),
       correction_(system, scene.correction),
       solver_(make_solver(spec_.name)),
-      impact_law_(system.restitution),
+      impact_law_(system.highest_restitution()),
       reach_(system.bodies.size(), 0.0) {
   if (spec_.change_tolerance > 0.0)
     solver_ = make_change_stopped(std::move(solver_), {spec_.change_tolerance, spec_.change_every});
@@ -128,7 +134,7 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   budget.max_seconds = spec_.max_seconds;
   // validates, solves and judges; the judge's error is what the record says
   SolverRun run = impact_law_.solve(runner_, *solver_, problem_, assembler_.rebound(),
-                                    std::move(impulses_), budget);
+                                    assembler_.restitution(), std::move(impulses_), budget);
   require_finite(run, spec_.name, record.time);
   impulses_ = std::move(run.solved.impulses);
   record.iterations = run.solved.iterations;
@@ -149,7 +155,7 @@ void TimeStepper::account_energy(double mid_time, StepRecord& record) {
   const std::vector<double>& mass = assembler_.mass();
   const double contact_power =
       0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
-  const double wall_power = assembler_.prescribed_power(contacts_, mid_time, impulses_);
+  const double wall_power = assembler_.imposed_power(contacts_, mid_time, impulses_);
   record.dissipated = -(contact_power + wall_power);
   // T' - T = (v' - v) . M v_mean: the work of each impulse of the step is its product with the mean
   // of the velocities before and after.
@@ -179,7 +185,7 @@ double TimeStepper::gained_energy(double end_time) {
   // -L = r . (u + u_f) / 2 = H^T r . (v' + v_free) / 2 + r . (velocity of the walls).
   const double given =
       0.5 * runner_.body_impulse().dot(runner_.body_velocity() + problem_.dynamics.v_free) +
-      assembler_.prescribed_power(contacts_, end_time, impulses_);
+      assembler_.imposed_power(contacts_, end_time, impulses_);
   return std::max(0.0, given);
 }
 
@@ -204,9 +210,12 @@ void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record)
 void TimeStepper::finish_motion(double end_time, MotionState& state) {
   assembler_.unpack(runner_.body_velocity(), state);
   for (size_t b = 0; b < state.pose.size(); ++b) {
-    if (system_.bodies[b].is_wall() && system_.bodies[b].wall.motion == WallMotion::prescribed)
-      state.velocity[b] = prescribed_velocity(system_.bodies[b], end_time);
+    if (system_.bodies[b].imposed) {
+      follow(system_.bodies[b], end_time, state.pose[b], state.velocity[b], state.spin[b]);
+      continue;
+    }
     state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h_);
+    state.pose[b].position = system_.period.wrapped(state.pose[b].position);
   }
   ++state.step;
   state.time = end_time;
@@ -222,7 +231,10 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   //
   //     q -- h/2 v --> q_m: contacts are found, impulses r and v' follow -- h/2 v' --> q'
   for (size_t b = 0; b < state.pose.size(); ++b)
-    state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
+    if (const auto& imposed = system_.bodies[b].imposed)
+      state.pose[b] = imposed->motion.pose_at(mid_time, imposed->start);
+    else
+      state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
   // contacts are found at the mid-point, half a step of free flight away
   record.seconds_other = clock.restart();
   detect(state, memory);

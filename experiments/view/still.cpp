@@ -104,12 +104,14 @@ template <class Use>
 void for_faces(const ViewData& view, const MotionState& frame, Use&& use) {
   for (int g = 0; g < view.system.grain_count; ++g) {
     const Pose& pose = frame.pose[g];
-    const Polyhedron& shape = *view.system.bodies[g].shape.polyhedron;
-    for (int f = 0; f < shape.face_count(); ++f) {
-      std::vector<Vec3> corners;
-      for (const int v : shape.face(f)) corners.push_back(pose * shape.vertices()[v]);
-      use(g, Vec3(pose.rotation * shape.normal(f)), corners);
-    }
+    for (const ConvexPart& part : convex_parts(view.system.bodies[g].shape))
+      for (int f = 0; f < part.polyhedron->face_count(); ++f) {
+        std::vector<Vec3> corners;
+        for (const int v : part.polyhedron->face(f))
+          corners.push_back(pose * (part.pose * part.polyhedron->vertices()[v]));
+        const Vec3 normal = part.pose.rotation * part.polyhedron->normal(f);
+        use(g, Vec3(pose.rotation * normal), corners);
+      }
   }
 }
 

@@ -83,26 +83,50 @@ std::vector<size_t> thinned(size_t count, size_t stride) {
   return kept;
 }
 
+/// A body's convex parts as one set of corners and faces, in its own frame.
+struct DrawnShape {
+  std::vector<Vec3> corners;
+  std::vector<std::vector<int>> faces;
+
+  explicit DrawnShape(const ContactShape& shape) {
+    for (const ConvexPart& part : convex_parts(shape)) {
+      const int first = static_cast<int>(corners.size());
+      for (const Vec3& vertex : part.polyhedron->vertices()) corners.push_back(part.pose * vertex);
+      for (int f = 0; f < part.polyhedron->face_count(); ++f) {
+        std::vector<int>& face = faces.emplace_back();
+        for (const int v : part.polyhedron->face(f)) face.push_back(first + v);
+      }
+    }
+  }
+};
+
 /// Of each shape how many corners and faces it has, the faces as loops of corner numbers, each
 /// after its length, and the corners over the largest coordinate of all.
 void pack_shapes(const ViewData& view, Json& head, page::Replay& replay) {
-  double scale = 0.0;
-  for (const auto& shape : view.system.shapes)
-    for (const Vec3& vertex : shape->vertices())
-      scale = std::max(scale, vertex.lpNorm<Eigen::Infinity>());
-  Words words;
-  const auto add = [&](long number) { words.push_back(static_cast<std::uint16_t>(number)); };
   std::map<const Polyhedron*, size_t> place;
-  for (const auto& shape : view.system.shapes) {
-    place.emplace(shape.get(), place.size());
-    add(shape->vertex_count());
-    add(shape->face_count());
-    for (int f = 0; f < shape->face_count(); ++f) {
-      add(static_cast<long>(shape->face(f).size()));
-      for (const int v : shape->face(f)) add(v);
+  std::vector<DrawnShape> shapes;
+  for (int b = 0; b < view.system.grain_count; ++b) {
+    const ContactShape& shape = view.system.bodies[b].shape;
+    if (place.emplace(shape.polyhedron, place.size()).second) shapes.emplace_back(shape);
+  }
+  double scale = 0.0;
+  for (const DrawnShape& shape : shapes)
+    for (const Vec3& corner : shape.corners)
+      scale = std::max(scale, corner.lpNorm<Eigen::Infinity>());
+  Words words;
+  const auto add = [&](size_t number) { words.push_back(static_cast<std::uint16_t>(number)); };
+  for (const DrawnShape& shape : shapes) {
+    add(shape.corners.size());
+    add(shape.faces.size());
+    for (const std::vector<int>& face : shape.faces) {
+      add(face.size());
+      for (const int v : face) add(static_cast<size_t>(v));
     }
-    for (const Vec3& vertex : shape->vertices())
-      for (const double entry : vertex) add(std::lround(entry / scale * 32767.0));
+    for (const Vec3& corner : shape.corners)
+      for (const double entry : corner) {
+        const long number = std::lround(entry / scale * 32767.0);
+        words.push_back(static_cast<std::uint16_t>(number));
+      }
   }
   head["scale"] = scale;
   head["shapes"] = place.size();

@@ -111,7 +111,7 @@ void BroadPhase::find_overlaps() {
     for (size_t l = k + 1; l < order_.size() && sorted_[0][l].low <= along.high; ++l) {
       if (!(overlaps(second, sorted_[1][l]) & overlaps(third, sorted_[2][l]))) continue;
       const int i = order_[k], j = order_[l];
-      if (bodies_[i].fixed && bodies_[j].fixed) continue;
+      if (!bodies_[i].meets(bodies_[j])) continue;
       found_.emplace_back(std::min(i, j), std::max(i, j));
     }
   }

@@ -43,6 +43,12 @@ class BroadPhase {
   struct Body {
     const CollisionShape* shape;  ///< not owned; null: left out (planes)
     bool fixed;                   ///< two fixed bodies are never a pair
+    int owner = -1;               ///< nor are two of one owner, if they have any
+    bool image = false;           ///< nor two images
+    bool meets(const Body& other) const {
+      return !(fixed && other.fixed) && (owner < 0 || owner != other.owner) &&
+             !(image && other.image);
+    }
   };
 
   /// `skin` [m]: least sum of the margins of two bodies.

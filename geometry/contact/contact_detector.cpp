@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 
+#include "geometry/contact/convex_elements.hpp"
 #include "geometry/contact/detection_part.hpp"
 #include "platform/worker_team.hpp"
 
@@ -20,20 +22,39 @@ double chosen_skin(double skin, std::span<const CollisionShape> shapes) {
   return 0.05 * sum / static_cast<double>(shapes.size());
 }
 
-std::vector<BroadPhase::Body> broad_phase_bodies(const DetectedBodies& bodies) {
+using Elements = std::optional<ConvexElements>;
+
+DetectedBodies detected_bodies(std::vector<ContactShape> shapes, const Elements& elements) {
+  DetectedBodies bodies(elements ? elements->shapes() : std::move(shapes));
+  for (int i = 0; elements && i < elements->count(); ++i)
+    bodies.is_image[i] = elements->is_image(i);
+  return bodies;
+}
+
+std::vector<BroadPhase::Body> broad_phase_bodies(const DetectedBodies& bodies,
+                                                 const Elements& elements) {
   std::vector<BroadPhase::Body> list;
-  for (int i = 0; i < bodies.count(); ++i)
+  for (int i = 0; i < bodies.count(); ++i) {
     list.push_back({bodies.shape(i), bodies.shapes[i].fixed});
+    if (!elements) continue;
+    list.back().owner = elements->body(i);
+    list.back().image = elements->is_image(i);
+  }
   return list;
 }
 
 }  // namespace
 
 struct ContactDetector::State {
-  State(std::vector<ContactShape> shapes, const DetectionSettings& detection)
+  State(std::vector<ContactShape> shapes, const DetectionSettings& detection, const Period& period)
       : settings(detection),
-        bodies(std::move(shapes)),
-        broad_phase(broad_phase_bodies(bodies), chosen_skin(settings.skin, bodies.tables)),
+        body_count(shapes.size()),
+        elements(ConvexElements::are_needed(shapes, period)
+                     ? std::make_optional<ConvexElements>(shapes, period)
+                     : std::nullopt),
+        bodies(detected_bodies(std::move(shapes), elements)),
+        broad_phase(broad_phase_bodies(bodies, elements),
+                    chosen_skin(settings.skin, bodies.tables)),
         part_of(bodies.shapes.size(), 0) {
     parts.emplace_back(bodies, settings);
     share();
@@ -43,6 +64,8 @@ struct ContactDetector::State {
   void share();
 
   DetectionSettings settings;
+  size_t body_count;
+  Elements elements;  // where bodies are not convex shapes themselves
   DetectedBodies bodies;
   BroadPhase broad_phase;
   WorkerTeam* team = nullptr;
@@ -52,8 +75,8 @@ struct ContactDetector::State {
 };
 
 ContactDetector::ContactDetector(std::vector<ContactShape> shapes,
-                                 const DetectionSettings& settings)
-    : state_(std::make_unique<State>(std::move(shapes), settings)) {}
+                                 const DetectionSettings& settings, const Period& period)
+    : state_(std::make_unique<State>(std::move(shapes), settings, period)) {}
 ContactDetector::~ContactDetector() = default;
 ContactDetector::ContactDetector(ContactDetector&&) noexcept = default;
 ContactDetector& ContactDetector::operator=(ContactDetector&&) noexcept = default;
@@ -71,6 +94,11 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   State& s = *state_;
   s.check(poses, reach);
   contacts.clear();
+  if (s.elements) {
+    s.elements->place(poses, reach);
+    poses = s.elements->poses();
+    reach = s.elements->reach();
+  }
   // Rotations of all bodies once, then the pairs that may touch, then each part's run of pairs.
   s.bodies.take(poses, reach);
   const long rebuilds = s.broad_phase.rebuilds();
@@ -88,11 +116,12 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
     s.counters += s.parts[k].counters();
     if (k > 0) contacts.insert(contacts.end(), s.parts[k].found.begin(), s.parts[k].found.end());
   }
+  if (s.elements) s.elements->name_bodies(contacts);
 }
 
 void ContactDetector::State::check(std::span<const Pose> poses,
                                    std::span<const double> reach) const {
-  const size_t count = bodies.shapes.size();
+  const size_t count = body_count;
   if (poses.size() != count || reach.size() != count)
     throw std::invalid_argument("detect: " + std::to_string(count) + " bodies, but " +
                                 std::to_string(poses.size()) + " poses and " +

@@ -8,17 +8,20 @@
 #include <vector>
 
 #include "geometry/contact/contact_point.hpp"
+#include "geometry/shape/period.hpp"
 
 namespace ballast {
 
 class WorkerTeam;
 
-/// Contact detection for one set of bodies, with a memory from step to step. The memory makes it
-/// fast and changes nothing: contacts depend only on the poses and reaches given.
-/// They come sorted by (body_a, body_b, feature).
+/// Contact detection for one set of bodies, of one or several convex parts, with a memory from step
+/// to step. The memory makes it fast and changes nothing: contacts depend only on the poses and
+/// reaches given. They come sorted by (body_a, body_b, feature).
 class ContactDetector {
  public:
-  ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings);
+  /// Throws std::invalid_argument as ConvexElements.
+  ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings,
+                  const Period& period = {});
   ~ContactDetector();
   ContactDetector(ContactDetector&&) noexcept;
   ContactDetector& operator=(ContactDetector&&) noexcept;

@@ -3,6 +3,7 @@
 // names by which they are known from step to step.
 
 #include <cstdint>
+#include <vector>
 
 #include "geometry/shape/polyhedron.hpp"
 
@@ -14,12 +15,25 @@ struct Plane {
   Vec3 normal = Vec3::UnitZ();
 };
 
-/// A body as detection sees it: a polyhedron (in its body frame) or a plane.
-struct ContactShape {
-  const Polyhedron* polyhedron = nullptr;  ///< not owned; null for a plane
-  Plane plane;                             ///< used when polyhedron is null
-  bool fixed = false;  ///< never moves and carries no unknown: two fixed bodies are never a pair
+/// A convex part of a body.
+struct ConvexPart {
+  const Polyhedron* polyhedron = nullptr;  ///< in its own frame; not owned
+  Pose pose;                               ///< of that frame in the body frame
 };
+
+/// A body as detection sees it: a polyhedron (in its body frame), several of them, or a plane.
+struct ContactShape {
+  const Polyhedron* polyhedron = nullptr;  ///< not owned; null for a plane; with `parts` their hull
+  Plane plane = {};                        ///< used when polyhedron is null
+  bool fixed = false;                  ///< carries no unknown: two fixed bodies are never a pair
+  std::vector<ConvexPart> parts = {};  ///< empty: the polyhedron is the body
+};
+
+/// The polyhedra that a body consists of, each with its place in the body frame; none of a plane.
+inline std::vector<ConvexPart> convex_parts(const ContactShape& shape) {
+  if (!shape.parts.empty() || !shape.polyhedron) return shape.parts;
+  return {{shape.polyhedron, Pose{}}};
+}
 
 struct DetectionSettings {
   int max_points = 4;     ///< per pair of polyhedra; the deepest is always kept

@@ -7,7 +7,10 @@
 namespace ballast {
 
 DetectedBodies::DetectedBodies(std::vector<ContactShape> bodies)
-    : shapes(std::move(bodies)), rotations(shapes.size()), travel(shapes.size()) {
+    : shapes(std::move(bodies)),
+      is_image(shapes.size(), 0),
+      rotations(shapes.size()),
+      travel(shapes.size()) {
   // Bodies of one polyhedron share its tables.
   std::map<const Polyhedron*, int> number;
   std::vector<const Polyhedron*> distinct;
@@ -155,6 +158,7 @@ void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts)
     if (height > bodies_.bounds[b].circumradius + alert) continue;
     const CollisionShape* body = bodies_.shape(b);
     if (!body || (bodies_.shapes[plane].fixed && bodies_.shapes[b].fixed)) continue;
+    if (bodies_.is_image[b]) continue;
     body->vertices().evaluate(bodies_.rotations[b].transpose() * normal, heights_.data());
     const size_t before = contacts.size();
     for (int v = 0; v < body->vertices().count(); ++v) {

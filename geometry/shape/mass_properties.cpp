@@ -14,22 +14,6 @@ double off_diagonal(const Mat3& inertia) {
   return off / inertia.diagonal().cwiseAbs().maxCoeff();
 }
 
-/// Columns: principal axes in the frame of `inertia`, moments ascending, right-handed. The sign of
-/// each axis is free: the largest component of the first two is made positive, so that the choice
-/// does not depend on the eigensolver.
-Mat3 principal_axes(const Mat3& inertia) {
-  if (off_diagonal(inertia) <= 1e-12) return Mat3::Identity();
-  Mat3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvectors();
-  for (int k = 0; k < 2; ++k) {
-    Eigen::Index largest;
-    axes.col(k).cwiseAbs().maxCoeff(&largest);
-    if (axes(largest, k) < 0.0) axes.col(k) *= -1.0;
-  }
-  // Eigenvectors may come as a reflection: the third is made from the other two.
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  return axes;
-}
-
 /// The same solid with every vertex p at axes^T (p - origin): seen from a frame at `origin` whose
 /// axes are the columns of `axes`.
 Polyhedron in_frame(const Polyhedron& polyhedron, const Mat3& axes, const Vec3& origin) {
@@ -41,6 +25,20 @@ Polyhedron in_frame(const Polyhedron& polyhedron, const Mat3& axes, const Vec3& 
 }
 
 }  // namespace
+
+Mat3 principal_axes(const Mat3& inertia) {
+  if (off_diagonal(inertia) <= 1e-12) return Mat3::Identity();
+  Mat3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvectors();
+  for (int k = 0; k < 2; ++k) {
+    // The sign of each axis is free: its largest component is made positive.
+    Eigen::Index largest;
+    axes.col(k).cwiseAbs().maxCoeff(&largest);
+    if (axes(largest, k) < 0.0) axes.col(k) *= -1.0;
+  }
+  // Eigenvectors may come as a reflection: the third is made from the other two.
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
+}
 
 /// Tetrahedra from one inner point to a fan of each face; for a tetrahedron (0, a, b, c) with d =
 /// det(a, b, c): volume d/6, first moment d/24 (a+b+c), second moment d/120 (a a' + b b' + c c' +

@@ -14,6 +14,7 @@
 
 #include "geometry/shape/convex_hull.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/pack.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -440,6 +441,25 @@ Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale) {
   } catch (const InvalidPolyhedron& error) {
     Place{file}.fail(error.what());
   }
+}
+
+std::vector<std::vector<Vec3>> read_faces(const std::filesystem::path& file, double scale) {
+  const RawMesh mesh = read_raw(file, scale);
+  if (mesh.faces.empty()) Place{file}.fail("the file has no faces");
+  require_few(file, mesh.vertices.size());
+  std::vector<std::vector<Vec3>> faces;
+  for (const std::vector<int>& face : mesh.faces) {
+    std::vector<Vec3>& corners = faces.emplace_back();
+    for (const int v : face) corners.push_back(mesh.vertices[v]);
+  }
+  return faces;
+}
+
+std::string mesh_key(const Polyhedron& mesh) {
+  Packer packer;
+  packer.list(mesh.vertices(), [&](const Vec3& vertex) { packer.fixed(vertex); });
+  for (int f = 0; f < mesh.face_count(); ++f) packer.list(mesh.face(f));
+  return content_key(packer.bytes());
 }
 
 }  // namespace ballast

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "geometry/shape/polyhedron.hpp"
 #include "platform/error.hpp"
@@ -29,5 +31,12 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale = 1.0);
 /// As read_mesh, but takes the convex hull of the vertices instead of insisting on convexity: for
 /// scanned grains.
 Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale = 1.0);
+
+/// The faces of a mesh as they stand, which need not be closed or convex: corner by corner [m].
+/// Throws MeshFileError.
+std::vector<std::vector<Vec3>> read_faces(const std::filesystem::path& file, double scale = 1.0);
+
+/// A text that names a mesh by its vertices and faces, to the last bit.
+std::string mesh_key(const Polyhedron& mesh);
 
 }  // namespace ballast

@@ -1,7 +1,6 @@
 #include "problems/mechanics/assemble.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 namespace ballast {
 
@@ -26,19 +25,13 @@ Mat3 frame_of(const Vec3& n, const Vec3& first_tangent) {
 
 Mat3 contact_frame(const Vec3& normal) { return frame_of(normal, first_tangent(normal)); }
 
-Vec3 prescribed_velocity(const RigidBody& body, double time) {
-  if (!body.is_wall() || body.wall.motion != WallMotion::prescribed) return Vec3::Zero();
-  const double omega = 2.0 * std::numbers::pi * body.wall.frequency;
-  return body.wall.amplitude * (omega * std::sin(omega * time));  // d/dt of A (1 - cos wt)
-}
-
-ProblemAssembler::ProblemAssembler(const MechanicalSystem& system) : system_(system) {
+ProblemAssembler::ProblemAssembler(const MechanicalSystem& system)
+    : system_(system), highest_restitution_(system.highest_restitution()) {
   for (const RigidBody& body : system.bodies) {
     const bool is_like_last = !sides_.empty() && *sides_.back().freedom == body.freedom;
     sides_.push_back({is_like_last ? sides_.back().freedom : &body.freedom,
-                      body.is_wall() ? body.wall.friction : -1.0});
-    if (body.is_wall() && body.wall.motion == WallMotion::prescribed)
-      some_wall_is_prescribed_ = true;
+                      body.is_wall() ? body.wall.friction : -1.0, body.material >= 0});
+    if (body.imposed) some_motion_is_imposed_ = true;
     const int dofs = body.freedom.count();
     if (dofs == 0) {
       problem_body_.push_back(-1);
@@ -94,7 +87,8 @@ void ProblemAssembler::write_contact(const ContactPoint& contact, const Mat3& fr
     if (!freedom.rotation) continue;
     // d . R (w_B x s) = w_B . (s x R^T d): lever and direction in the body frame
     const Mat3 rotation = poses[body].rotation.toRotationMatrix();
-    const Vec3 lever = sign * (rotation.transpose() * (contact.position - poses[body].position));
+    const Vec3 arm = system_.period.nearest(contact.position - poses[body].position);
+    const Vec3 lever = sign * (rotation.transpose() * arm);
     const Mat3 directions = rotation.transpose() * frame.transpose();
     for (int row = 0; row < Rows; ++row) {
       const Vec3 turning = lever.cross(Vec3(directions.col(row)));
@@ -104,20 +98,30 @@ void ProblemAssembler::write_contact(const ContactPoint& contact, const Mat3& fr
   }
 }
 
+/// What MechanicalSystem::law says, quicker.
+PairLaw ProblemAssembler::law_of(const ContactPoint& contact) const {
+  const Side &a = sides_[contact.body_a], &b = sides_[contact.body_b];
+  if (a.has_material && b.has_material) return system_.law(contact.body_a, contact.body_b);
+  return {a.wall_friction >= 0.0   ? a.wall_friction
+          : b.wall_friction >= 0.0 ? b.wall_friction
+                                   : system_.friction,
+          system_.restitution};
+}
+
 /// Everything but numbers: who touches whom, with how many rows, and where its blocks stand.
 void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem) {
   DynamicsForm& dynamics = problem.dynamics;
   detected_.clear();
+  restitution_.clear();
   int row = 0, entry = 0;
   for (size_t c = 0; c < contacts.size(); ++c) {
     const ContactPoint& contact = contacts[c];
+    const auto [mu, e] = law_of(contact);
     // With restitution only points that touch are contacts: an open one has nothing to reflect.
-    if (system_.restitution > 0.0 && contact.gap > 0.0) continue;
+    if (e > 0.0 && contact.gap > 0.0) continue;
     detected_.push_back(static_cast<int>(c));
+    if (highest_restitution_ > 0.0) restitution_.push_back(e);
     const Side &a = sides_[contact.body_a], &b = sides_[contact.body_b];
-    const double mu = a.wall_friction >= 0.0   ? a.wall_friction
-                      : b.wall_friction >= 0.0 ? b.wall_friction
-                                               : system_.friction;
     // One row, the normal, without friction; with it two tangents besides.
     const int rows = mu > 0.0 ? 3 : 1;
     row += rows;
@@ -180,22 +184,20 @@ void ProblemAssembler::write_rows(const StepInput& step, FrictionProblem& proble
   });
 }
 
-/// What the velocity at the contacts has besides H v: prescribed walls; open gaps or restitution.
+/// What the velocity at the contacts has besides H v: imposed motions; open gaps or restitution.
 void ProblemAssembler::write_bias(const StepInput& step, FrictionProblem& problem) {
   DynamicsForm& dynamics = problem.dynamics;
-  prescribed_part(step.contacts, step.end_time, dynamics.bias);
-  const double e = system_.restitution;
+  imposed_part(step.contacts, step.end_time, dynamics.bias);
   // Without restitution an open point may close its gap within the step: u_N + gap / h >= 0.
-  if (!(e > 0.0)) {
-    for (int c = 0; c < problem.contact_count(); ++c)
+  for (int c = 0; c < problem.contact_count(); ++c)
+    if (restitution_.empty() || restitution_[c] == 0.0)
       dynamics.bias[problem.row_begin[c]] +=
           std::max(step.contacts[detected_[c]].gap, 0.0) / step.h;
-    return;
-  }
+  if (restitution_.empty()) return;
   // Newton's law: u_N+ + e u_N- >= 0 for approaching points
   rebound_.assign(problem.contact_count(), 0.0);
   pack(step.state, v_before_);
-  prescribed_part(step.contacts, step.state.time, u_before_);
+  imposed_part(step.contacts, step.state.time, u_before_);
   // The normal part of H v before the step: the first row of each block, one entry per unknown.
   for (int c = 0; c < problem.contact_count(); ++c) {
     const int rows = problem.contact_rows(c);
@@ -205,29 +207,35 @@ void ProblemAssembler::write_bias(const StepInput& step, FrictionProblem& proble
       for (int d = 0; d < dynamics.body_dofs(body); ++d, block += rows)
         approach += *block * v_before_[dynamics.dof_begin[body] + d];
     if (!(approach < 0.0)) continue;
-    rebound_[c] = e * approach;
+    rebound_[c] = restitution_[c] * approach;
     dynamics.bias[problem.row_begin[c]] += rebound_[c];
   }
 }
 
-void ProblemAssembler::prescribed_part(std::span<const ContactPoint> contacts, double time,
-                                       Eigen::VectorXd& rows) const {
+/// Zero of what moves freely or not at all.
+Vec3 ProblemAssembler::imposed_velocity(int body, const Vec3& place, double time) const {
+  const RigidBody& b = system_.bodies[body];
+  return b.imposed ? b.imposed->motion.velocity_at(time, place) : Vec3::Zero();
+}
+
+void ProblemAssembler::imposed_part(std::span<const ContactPoint> contacts, double time,
+                                    Eigen::VectorXd& rows) const {
   rows.setZero(row_begin_.back());
-  if (!some_wall_is_prescribed_) return;
+  if (!some_motion_is_imposed_) return;
   for (size_t k = 0; k < detected_.size(); ++k) {
     const ContactPoint& contact = contacts[detected_[k]];
-    const Vec3 velocity = prescribed_velocity(system_.bodies[contact.body_b], time) -
-                          prescribed_velocity(system_.bodies[contact.body_a], time);
+    const Vec3 velocity = imposed_velocity(contact.body_b, contact.position, time) -
+                          imposed_velocity(contact.body_a, contact.position, time);
     const int n = row_begin_[k + 1] - row_begin_[k];
     const Mat3 frame = frame_of(contact.normal, first_tangents_[k]);
     rows.segment(row_begin_[k], n) = (frame * velocity).head(n);
   }
 }
 
-double ProblemAssembler::prescribed_power(std::span<const ContactPoint> contacts, double time,
-                                          const Impulses& r) {
-  if (!some_wall_is_prescribed_) return 0.0;
-  prescribed_part(contacts, time, u_before_);
+double ProblemAssembler::imposed_power(std::span<const ContactPoint> contacts, double time,
+                                       const Impulses& r) {
+  if (!some_motion_is_imposed_) return 0.0;
+  imposed_part(contacts, time, u_before_);
   return r.dot(u_before_);
 }
 

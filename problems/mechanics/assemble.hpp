@@ -15,9 +15,6 @@ namespace ballast {
 /// normal.
 Mat3 contact_frame(const Vec3& normal);
 
-/// Velocity of a wall with prescribed motion at time t [m/s]; zero for others.
-Vec3 prescribed_velocity(const RigidBody& body, double time);
-
 /// What one step's problem is made from.
 struct StepInput {
   const MotionState& state;  ///< poses at which the contacts were detected, velocities at the
@@ -25,7 +22,7 @@ struct StepInput {
   std::span<const ContactPoint> contacts;
   const Eigen::VectorXd& v_free;  ///< per unknown [m/s, rad/s]; copied, if it is not the problem's
   double h;                       ///< length of the step [s]
-  double end_time;                ///< when prescribed walls are taken [s]
+  double end_time;                ///< when imposed motions are taken [s]
 };
 
 /// Turns contacts into a FrictionProblem, step after step, into the same buffers.
@@ -49,20 +46,21 @@ class ProblemAssembler {
   /// Mass or moment of inertia of each unknown [kg, kg m^2]: the mass matrix is diagonal.
   const std::vector<double>& mass() const { return mass_; }
 
-  /// With restitution e > 0 points still open are left out: Newton's law speaks of contacts that
-  /// are closed; otherwise an open point acts only if it would close within the step, bias_N = gap
-  /// / h.
+  /// Where the contact's restitution e > 0 points still open are left out: Newton's law speaks of
+  /// contacts that are closed; otherwise an open point acts only if it would close within the step,
+  /// bias_N = gap / h.
   void assemble(const StepInput& step, FrictionProblem& problem);
 
   /// Which detected contact each one assembled last is; left-out points are none.
   std::span<const int> detected() const { return detected_; }
 
   /// e u_N- <= 0 of each contact assembled last [m/s], which the normal row of its bias holds among
-  /// the rest. Empty without restitution.
+  /// the rest, and e itself. Empty where nothing rebounds.
   std::span<const double> rebound() const { return rebound_; }
+  std::span<const double> restitution() const { return restitution_; }
 
-  /// What the motion of prescribed walls at that time adds to r . u [J].
-  double prescribed_power(std::span<const ContactPoint> contacts, double time, const Impulses& r);
+  /// What imposed motions at that time add to r . u [J].
+  double imposed_power(std::span<const ContactPoint> contacts, double time, const Impulses& r);
 
   /// World-frame impulses on body b <-> stacked rows of the problem assembled last.
   void to_rows(std::span<const Vec3> world, std::span<const ContactPoint> contacts,
@@ -71,10 +69,11 @@ class ProblemAssembler {
                 std::vector<Vec3>& world) const;
 
  private:
-  /// Velocity of prescribed walls seen at the contacts assembled last, in the contact frames: the
-  /// part of the relative velocity that is not H v. Rows as in the problem.
-  void prescribed_part(std::span<const ContactPoint> contacts, double time,
-                       Eigen::VectorXd& rows) const;
+  /// Velocity of what follows an imposed motion, at the contacts assembled last, in their frames:
+  /// the part of the relative velocity that is not H v. Rows as in the problem.
+  Vec3 imposed_velocity(int body, const Vec3& place, double time) const;
+  void imposed_part(std::span<const ContactPoint> contacts, double time,
+                    Eigen::VectorXd& rows) const;
   void lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem);
   void write_masses(DynamicsForm& dynamics) const;
   void write_rows(const StepInput& step, FrictionProblem& problem);
@@ -89,17 +88,20 @@ class ProblemAssembler {
   struct Side {
     const Freedom* freedom;  // the same object for all bodies whose freedom is the same
     double wall_friction;    // below 0: no wall
+    bool has_material;
   };
+  PairLaw law_of(const ContactPoint& contact) const;
   std::vector<Side> sides_;
   std::vector<int> problem_body_;  // body -> index among bodies with freedom, or -1
   std::vector<int> dof_begin_{0};
   std::vector<double> mass_;
-  bool some_wall_is_prescribed_ = false;
+  bool some_motion_is_imposed_ = false;
+  double highest_restitution_;
   std::vector<Vec3> first_tangents_;  // T1 of the contacts assembled last
   std::vector<int> detected_;
   std::vector<int> row_begin_{0};
   Eigen::VectorXd v_before_, u_before_;
-  std::vector<double> rebound_;
+  std::vector<double> restitution_, rebound_;
 };
 
 }  // namespace ballast

@@ -19,7 +19,48 @@ Freedom freedom_of(const BodySpec& spec) {
   return freedom;
 }
 
+/// Parts that overlap count twice [m^3].
+double volume_of(const BodySpec& spec) {
+  if (spec.parts.empty()) return mass_properties(*spec.shape).volume;
+  double volume = 0.0;
+  for (const PlacedShape& part : spec.parts) volume += mass_properties(*part.shape).volume;
+  return volume;
+}
+
+/// The body last added follows the motion, from where it is on.
+void impose(const ImposedMotion& motion, MechanicalSystem& system, MotionState& state) {
+  RigidBody& body = system.bodies.back();
+  body.imposed =
+      std::make_shared<RigidBody::Imposed>(RigidBody::Imposed{motion, state.pose.back()});
+  body.freedom.translations = 0;
+  body.freedom.rotation = false;
+  body.shape.fixed = true;
+  follow(body, 0.0, state.pose.back(), state.velocity.back(), state.spin.back());
+}
+
 }  // namespace
+
+void follow(const RigidBody& body, double time, Pose& pose, Vec3& velocity, Vec3& spin) {
+  const ImposedMotion& motion = body.imposed->motion;
+  pose = motion.pose_at(time, body.imposed->start);
+  velocity = motion.velocity_at(time, pose.position);
+  spin = pose.rotation.conjugate() * motion.spin_at(time);
+}
+
+PairLaw MechanicalSystem::law(int a, int b) const {
+  const RigidBody &first = bodies[a], &second = bodies[b];
+  const auto at = material_laws.find(std::minmax(first.material, second.material));
+  if (at != material_laws.end()) return at->second;
+  if (first.is_wall()) return {first.wall.friction, restitution};
+  if (second.is_wall()) return {second.wall.friction, restitution};
+  return {friction, restitution};
+}
+
+double MechanicalSystem::highest_restitution() const {
+  double highest = restitution;
+  for (const auto& [materials, law] : material_laws) highest = std::max(highest, law.restitution);
+  return highest;
+}
 
 double MechanicalSystem::mass_of_grains() const {
   double mass = 0.0;
@@ -44,12 +85,18 @@ void add_body(MechanicalSystem& system, MotionState& state, const BodySpec& spec
   body.force = spec.force;
   body.shape.polyhedron = spec.shape.get();
   body.shape.fixed = body.freedom.count() == 0;
+  body.material = spec.material;
   system.shapes.push_back(spec.shape);
+  for (const PlacedShape& part : spec.parts) {
+    body.shape.parts.push_back({part.shape.get(), part.pose});
+    system.shapes.push_back(part.shape);
+  }
   system.bodies.push_back(std::move(body));
   system.grain_count = static_cast<int>(system.bodies.size());
   state.pose.push_back(spec.pose);
   state.velocity.push_back(spec.velocity);
   state.spin.push_back(spec.spin);
+  if (spec.imposed) impose(*spec.imposed, system, state);
 }
 
 void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec) {
@@ -64,6 +111,7 @@ void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec
     body.freedom.translations = 1;
     body.freedom.axes.col(0) = -spec.normal;
   }
+  body.material = spec.material;
   body.shape.plane.normal = spec.normal;
   body.shape.fixed = spec.motion != WallMotion::driven;
   system.bodies.push_back(std::move(body));
@@ -72,6 +120,7 @@ void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec
   state.pose.push_back(pose);
   state.velocity.push_back(Vec3::Zero());
   state.spin.push_back(Vec3::Zero());
+  if (spec.motion == WallMotion::prescribed) impose(spec.imposed, system, state);
 }
 
 MechanicalSystem make_system(const Scene& scene, MotionState& state) {
@@ -80,12 +129,11 @@ MechanicalSystem make_system(const Scene& scene, MotionState& state) {
   system.gravity = scene.gravity;
   system.friction = scene.friction;
   system.restitution = scene.restitution;
+  system.period = scene.period;
+  for (const MaterialPair& pair : scene.material_pairs)
+    system.material_laws[std::minmax(pair.a, pair.b)] = {pair.friction, pair.restitution};
   // Bodies first, then walls: detection relies on that order.
-  for (const BodySpec& body : scene.bodies) {
-    double volume = 0.0;
-    if (body.shape) volume = mass_properties(*body.shape).volume;
-    add_body(system, state, body, volume);
-  }
+  for (const BodySpec& body : scene.bodies) add_body(system, state, body, volume_of(body));
   for (const WallSpec& wall : scene.walls) add_wall(system, state, wall);
   return system;
 }

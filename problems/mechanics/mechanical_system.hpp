@@ -2,7 +2,9 @@
 // A scene's bodies and walls as one list of rigid bodies, and their state; and how much of a box at
 // rest grains fill (Fig. 12 of the paper).
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/shape/clipped_volume.hpp"
@@ -32,7 +34,19 @@ struct RigidBody {
   double volume = 0.0;  ///< [m^3]; 0 for walls
   ForceSpec force;      ///< on bodies
   WallSpec wall;        ///< on walls: motion, load, and mu of contacts with it
+  int material = -1;    ///< a number in material_laws; -1: none
+  /// Of bodies and walls that follow an imposed motion, with the pose that it starts from.
+  struct Imposed {
+    ImposedMotion motion;
+    Pose start;
+  };
+  std::shared_ptr<const Imposed> imposed = {};
   bool is_wall() const { return shape.polyhedron == nullptr; }
+};
+
+/// What a contact between two bodies obeys.
+struct PairLaw {
+  double friction, restitution;
 };
 
 /// Positions at t_k, velocities at t_k. Everything that a step changes, apart from warm starts.
@@ -52,7 +66,12 @@ struct MechanicalSystem {
   Vec3 gravity = Vec3::Zero();
   double friction = 0.0;
   double restitution = 0.0;
+  Period period;
+  std::map<std::pair<int, int>, PairLaw> material_laws;  ///< the smaller number first
 
+  /// That of the two materials, else with the wall's friction, else the scene's.
+  PairLaw law(int a, int b) const;
+  double highest_restitution() const;  ///< 0: nothing rebounds anywhere
   double mass_of_grains() const;
   int first_driven_wall() const;  ///< -1 when there is none
 };
@@ -64,6 +83,9 @@ MechanicalSystem make_system(const Scene& scene, MotionState& state);
 /// Appends a body or a wall (walls last). Used by make_system and by the vibrated box.
 void add_body(MechanicalSystem& system, MotionState& state, const BodySpec& spec, double volume);
 void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec);
+
+/// Where a body with imposed motion is at that time, and how fast; spin in the body frame.
+void follow(const RigidBody& body, double time, Pose& pose, Vec3& velocity, Vec3& spin);
 
 std::vector<ContactShape> contact_shapes(const MechanicalSystem& system);
 

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "geometry/contact/contact_detector.hpp"
+#include "geometry/shape/compound.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "platform/error.hpp"
+#include "problems/scene/imposed_motion.hpp"
 
 namespace ballast {
 
@@ -43,11 +45,10 @@ struct WallSpec {
   double offset = 0.0;    ///< [m] at t = 0
   double friction = 0.0;  ///< mu of contacts with this wall
   WallMotion motion = WallMotion::fixed;
-  double mass = 0.0;       ///< driven: [kg]
-  HarmonicLoad load = {};  ///< driven
-  /// prescribed: displacement amplitude (1 - cos 2 pi nu t), from rest [m]; nu [Hz]
-  Vec3 amplitude = Vec3::Zero();
-  double frequency = 0.0;
+  double mass = 0.0;           ///< driven: [kg]
+  HarmonicLoad load = {};      ///< driven
+  ImposedMotion imposed = {};  ///< prescribed; it does not turn
+  int material = -1;           ///< number in Scene::materials; -1: none
 };
 
 /// f(t) = constant + amplitude cos(2 pi nu t + phase): a force on a body's centre of mass, world
@@ -64,7 +65,8 @@ struct ForceSpec {
 /// One rigid body, given by its shape in the principal frame.
 struct BodySpec {
   std::string name;
-  std::shared_ptr<const Polyhedron> shape;  ///< principal frame [m]
+  std::shared_ptr<const Polyhedron> shape;  ///< principal frame [m]; the hull of the parts
+  std::vector<PlacedShape> parts;           ///< principal frame; empty: the shape is the body
   double mass = 0.0;                        ///< [kg]
   Vec3 inertia = Vec3::Zero();              ///< principal moments [kg m^2]
   std::string mesh_key;                     ///< of the mesh file's content; empty without one
@@ -74,6 +76,16 @@ struct BodySpec {
   ForceSpec force;
   std::array<bool, 3> free{true, true, true};  ///< translations along the world axes
   bool free_rotation = true;                   ///< all three rotations or none
+  std::optional<ImposedMotion> imposed;        ///< the body follows it and has no freedom
+  int material = -1;                           ///< number in Scene::materials; -1: none
+
+  bool can_move() const { return free[0] || free[1] || free[2] || free_rotation; }
+};
+
+/// The law of contacts between bodies of two materials.
+struct MaterialPair {
+  int a, b;  ///< numbers in Scene::materials
+  double friction, restitution;
 };
 
 /// A crowd of generated (or scanned) grains to be deposited in the box.
@@ -181,6 +193,9 @@ struct Scene {
   Vec3 gravity = Vec3(0, 0, -9.81);
   double friction = 0.4;  ///< between bodies
   double restitution = 0.0;
+  Period period;  ///< of the world; zero: it does not repeat itself
+  std::vector<std::string> materials;
+  std::vector<MaterialPair> material_pairs;  ///< others have the friction of wall or scene
   std::vector<WallSpec> walls;
   std::vector<BodySpec> bodies;
   /// With it: box, deposit and drive hold, and walls and bodies must be empty.

@@ -1,16 +1,12 @@
 #include "problems/scene/scene_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <set>
 #include <tuple>
 
 #include "geometry/shape/mesh_file.hpp"
-#include "platform/pack.hpp"
 #include "platform/text.hpp"
-#include "problems/algebra/friction_problem.hpp"
-#include "problems/scene/toml_reader.hpp"
+#include "problems/scene/scene_bodies.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -18,190 +14,9 @@ namespace {
 
 using enum Presence;
 
-/// Of every friction coefficient.
-constexpr NumberRange friction_range{"a number from 0 to 1e4 (which holds as a bond would)", 0.0,
-                                     largest_friction, true, true};
 constexpr NumberRange fill_range{"a number > 0 and <= 0.5", 0.0, 0.5, false, true};
 constexpr NumberRange axis_ratio{"an axis ratio > 0.1 and <= 1", 0.1, 1.0, false, true};
 constexpr NumberRange roughness_range{"a number from 0 to below 0.15", 0.0, 0.15, true, false};
-
-void check_direction(const TomlTable& table, const char* key, const Vec3& v) {
-  if (v.norm() == 0.0) table.fail(key, "has no direction, expected a vector that is not zero");
-}
-
-/// A mesh file's name made absolute: from the scene's folder, not from where the program runs.
-std::string mesh_path(const fs::path& scene_folder, const std::string& name) {
-  return fs::absolute(scene_folder / name).lexically_normal().string();
-}
-
-// [[wall]] and [[body]].
-
-WallSpec read_wall(TomlTable& table, const std::string& default_name) {
-  WallSpec wall;
-  std::string motion = "fixed";
-  wall.name = default_name;
-  table.read("name", &wall.name);
-  table.read("normal", &wall.normal, {}, required);
-  table.read("offset", &wall.offset, of_unit("m"));
-  table.read("friction", &wall.friction, in(friction_range));
-  table.read("motion", &motion, one_of({"fixed", "prescribed", "driven"}));
-  check_direction(table, "normal", wall.normal);
-  // The plane is normal.x = offset with the normal as given in the file, whatever its length.
-  wall.offset /= wall.normal.norm();
-  wall.normal.normalize();
-  if (motion == "prescribed") {
-    wall.motion = WallMotion::prescribed;
-    table.read("amplitude", &wall.amplitude, of_unit("m"), required);
-    table.read("frequency", &wall.frequency, in(not_negative, "Hz"), required);
-  } else if (motion == "driven") {
-    wall.motion = WallMotion::driven;
-    table.read("mass", &wall.mass, in(positive, "kg"), required);
-    TomlTable load = table.section("load");
-    load.read("f_max", &wall.load.f_max, in(not_negative, "N"), required);
-    load.read("f_min", &wall.load.f_min, in(not_negative, "N"));
-    load.read("frequency", &wall.load.frequency, in(not_negative, "Hz"), required);
-    load.finish();
-    if (wall.load.f_min > wall.load.f_max)
-      load.fail("f_min", "larger than f_max, expected f_min <= f_max");
-  }
-  table.finish();
-  return wall;
-}
-
-Quat read_orientation(TomlTable table) {
-  Vec3 axis = Vec3::UnitZ();
-  double degrees = 0.0;
-  table.read("axis", &axis);
-  table.read("angle_degrees", &degrees, of_unit("degrees"));
-  table.finish();
-  check_direction(table, "axis", axis);
-  const double angle = degrees * std::numbers::pi / 180.0;
-  return Quat(Eigen::AngleAxisd(angle, axis.normalized())).normalized();
-}
-
-PrincipalShape read_mesh_shape(TomlTable& table, const fs::path& folder, std::string& key_of_mesh) {
-  std::string file;
-  double scale = 1.0;
-  bool hull = false;
-  table.read("file", &file, {}, required);
-  table.read("scale", &scale, in(positive, "m per unit of the file"));
-  table.read("hull", &hull);
-  const std::string path = mesh_path(folder, file);
-  table.replace_resolved("file", toml::value<std::string>(path));
-  const Polyhedron mesh = hull ? read_mesh_hull(path, scale) : read_mesh(path, scale);
-  key_of_mesh = mesh_key(mesh);
-  return to_principal_frame(mesh);
-}
-
-/// Each kind of shape has keys of its own.
-PrincipalShape read_shape(TomlTable& table, const fs::path& folder, std::string& key_of_mesh) {
-  std::string kind;
-  Vec3 size = Vec3::Zero();
-  double radius = 0.0;
-  int subdivisions = 3;
-  std::uint64_t seed = 1;
-  table.read("shape", &kind, one_of({"box", "sphere", "grain", "mesh"}), required);
-  try {
-    if (kind == "mesh") return read_mesh_shape(table, folder, key_of_mesh);
-    if (kind == "box") {
-      table.read("size", &size, of_unit("m"), required);
-      if (!(size.minCoeff() > 0.0))
-        table.fail("size", "out of range, expected three lengths > 0 [m]");
-      return to_principal_frame(make_box(size));
-    }
-    table.read("radius", &radius, in(positive, "m"), required);
-    if (kind == "sphere") {
-      table.read("subdivisions", &subdivisions, whole(0, 5));
-      return to_principal_frame(make_sphere(radius, subdivisions));
-    }
-    table.read("seed", &seed);
-    return make_grain(GrainShapeSettings{}, radius, seed);
-  } catch (const MeshFileError& error) {
-    table.fail("file", error.what());
-  } catch (const InvalidPolyhedron& error) {  // a box a million times thinner than wide, say
-    table.fail("shape", error.what());
-  }
-}
-
-/// From either `mass` or `density`; a body that cannot move needs neither.
-double read_mass(TomlTable& table, double volume, bool can_move) {
-  const bool has_mass = table.has("mass"), has_density = table.has("density");
-  if (has_mass && has_density)
-    table.fail("mass", "given together with density, expected one of the two");
-  double mass = 0.0, density = 0.0;
-  table.read("mass", &mass, in(positive, "kg"), only_where_given);
-  table.read("density", &density, in(positive, "kg/m^3"),
-             can_move && !has_mass ? required : only_where_given);
-  return has_mass ? mass : volume * density;
-}
-
-void read_locks(TomlTable& table, BodySpec& body) {
-  std::vector<std::string> locked;
-  table.read("locked", &locked);
-  constexpr std::array<std::string_view, 4> freedoms{"x", "y", "z", "rotation"};
-  for (const std::string& lock : locked) {
-    const auto at = std::find(freedoms.begin(), freedoms.end(), lock);
-    if (at == freedoms.end())
-      table.fail("locked", "unknown word \"" + lock +
-                               "\", expected a list of \"x\", \"y\", \"z\", \"rotation\"");
-    (lock == "rotation" ? body.free_rotation : body.free[at - freedoms.begin()]) = false;
-  }
-  // A velocity along a locked direction could never change: it would be a motor, which this is not.
-  for (int i = 0; i < 3; ++i)
-    if (!body.free[i] && body.velocity[i] != 0.0)
-      table.fail("velocity", "moves along a locked direction, expected 0 there");
-  if (!body.free_rotation && body.spin.norm() != 0.0)
-    table.fail("spin", "turns a body of locked rotation, expected 0");
-}
-
-BodySpec read_body(TomlTable& table, const fs::path& folder, const std::string& default_name) {
-  BodySpec body;
-  body.name = default_name;
-  table.read("name", &body.name);
-  table.read("position", &body.pose.position, of_unit("m"));
-  table.read("velocity", &body.velocity, of_unit("m/s"));
-  table.read("spin", &body.spin, of_unit("rad/s"));
-  read_locks(table, body);
-  PrincipalShape shape = read_shape(table, folder, body.mesh_key);
-  body.shape = std::make_shared<const Polyhedron>(std::move(shape.shape));
-  const bool can_move = body.free[0] || body.free[1] || body.free[2] || body.free_rotation;
-  body.mass = read_mass(table, shape.volume, can_move);
-  // Moments per unit density [m^5] times the density.
-  body.inertia = body.mass / shape.volume * shape.inertia;
-
-  // pose of the shape as given, then of its principal frame within it
-  const Pose pose{body.pose.position, read_orientation(table.section("orientation"))};
-  body.pose.position = pose * shape.pose.position;
-  body.pose.rotation = (pose.rotation * shape.pose.rotation).normalized();
-  // A scene gives spins in the world frame, and states keep them in the body frame.
-  body.spin = body.pose.rotation.conjugate() * body.spin;
-  TomlTable force = table.section("force");
-  force.read("constant", &body.force.constant, of_unit("N"));
-  force.read("amplitude", &body.force.amplitude, of_unit("N"));
-  force.read("frequency", &body.force.frequency, in(not_negative, "Hz"));
-  force.read("phase", &body.force.phase, of_unit("rad"));
-  force.finish();
-  table.finish();
-  return body;
-}
-
-/// The walls, then the bodies. Names are unique among both; unnamed ones are called wall_0, body_0,
-/// ...
-void read_walls_and_bodies(TomlTable& root, const fs::path& folder, Scene& scene) {
-  std::set<std::string> names;
-  const auto check_name = [&](const TomlTable& table, const std::string& name) {
-    if (name.empty()) table.fail("name", "empty, expected a name");
-    if (!names.insert(name).second) table.fail("name", "given twice, expected a name of its own");
-  };
-  for (TomlTable& table : root.sections("wall")) {
-    scene.walls.push_back(read_wall(table, "wall_" + std::to_string(scene.walls.size())));
-    check_name(table, scene.walls.back().name);
-  }
-  for (TomlTable& table : root.sections("body")) {
-    scene.bodies.push_back(read_body(table, folder, "body_" + std::to_string(scene.bodies.size())));
-    check_name(table, scene.bodies.back().name);
-  }
-}
 
 // Grains in a box.
 
@@ -361,6 +176,7 @@ void read_head(TomlTable table, Scene& scene, const fs::path& file) {
   table.read("title", &scene.title);
   table.read("step", &scene.step, in(positive, "s"));
   table.read("duration", &scene.duration, in(positive, "s"));
+  table.read("period", &scene.period.vector, of_unit("m"), only_where_given);
   // a name is also a folder's name
   if (!is_plain(scene.name, "_-.") || scene.name[0] == '.')
     table.fail("name", "expected letters, digits, _, - and .");
@@ -402,14 +218,16 @@ void read_record(TomlTable table, RecordSpec& s) {
 }
 
 /// The vibrated box: everything is made from the grains and the box.
-void read_box_scene(TomlTable& root, Scene& scene, const fs::path& folder) {
-  for (const char* key : {"body", "wall"})
+void read_box_scene(TomlTable& root, Scene& scene, const fs::path& file) {
+  for (const char* key : {"body", "wall", "crowd"})
     if (root.has(key))
       root.fail(key, "given together with [grains], which make their own bodies and walls");
   if (scene.gravity.z() >= 0.0 || scene.gravity.x() != 0.0 || scene.gravity.y() != 0.0)
     root.fail("gravity",
               "grains are deposited along -z, expected magnitude > 0 and direction [0, 0, -1]");
-  scene.grains = read_grains(root.section("grains"), folder);
+  if (scene.period.repeats())
+    throw SceneFileError(file.string() + ": scene.period has no meaning with [grains], in a box");
+  scene.grains = read_grains(root.section("grains"), file.parent_path());
   read_box(root.section("box"), scene.box, *scene.grains);
   read_deposit(root.section("deposit"), scene.deposit);
   read_drive(root.section("drive"), scene.drive);
@@ -419,16 +237,17 @@ void read_box_scene(TomlTable& root, Scene& scene, const fs::path& folder) {
 void read_body_scene(TomlTable& root, Scene& scene, const fs::path& file) {
   for (const char* key : {"box", "deposit", "drive", "control_volume"})
     if (root.has(key)) root.fail(key, "has no meaning without [grains]");
-  read_walls_and_bodies(root, file.parent_path(), scene);
+  read_bodies(root, file.parent_path(), scene);
   if (scene.walls.empty() && scene.bodies.empty())
-    throw SceneFileError(
-        file.string() +
-        ": nothing in it, expected [grains] with [box], or at least one [[body]] or [[wall]]");
+    throw SceneFileError(file.string() +
+                         ": nothing in it, expected [grains] with [box], or at least one [[body]], "
+                         "[[crowd]] or [[wall]]");
 }
 
 Scene read(TomlTable& root, const fs::path& file) {
-  for (const char* key : {"scene", "gravity", "contact", "body", "wall", "grains", "box", "deposit",
-                          "drive", "solver", "correction", "detection", "record", "control_volume"})
+  for (const char* key :
+       {"scene", "gravity", "contact", "body", "wall", "crowd", "grains", "box", "deposit", "drive",
+        "solver", "correction", "detection", "record", "control_volume"})
     root.know(key);
   root.finish();  // a misspelt section first: what follows depends on which sections there are
   // grains decide the kind of scene: a box to be filled, or single bodies and walls
@@ -438,11 +257,14 @@ Scene read(TomlTable& root, const fs::path& file) {
   TomlTable contact = root.section("contact");
   contact.read("friction", &scene.friction, in(friction_range));
   contact.read("restitution", &scene.restitution, in(zero_to_one));
+  const std::vector<TomlTable> pairs = contact.sections("pair");
   contact.finish();
   if (root.has("grains")) {
-    read_box_scene(root, scene, file.parent_path());
+    if (!pairs.empty()) contact.fail("pair", "has no meaning with [grains], of one material");
+    read_box_scene(root, scene, file);
   } else {
     read_body_scene(root, scene, file);
+    read_material_pairs(pairs, scene);
     scene.solver = SolverSpec::for_any_scene();
   }
   read_solver(root.section("solver"), scene.solver);
@@ -482,13 +304,6 @@ ResolvedScene resolve_scene(const fs::path& file, std::span<const std::string> o
 
 Scene read_scene(const fs::path& file, std::span<const std::string> overrides) {
   return resolve_scene(file, overrides).scene;
-}
-
-std::string mesh_key(const Polyhedron& mesh) {
-  Packer packer;
-  packer.list(mesh.vertices(), [&](const Vec3& vertex) { packer.fixed(vertex); });
-  for (int f = 0; f < mesh.face_count(); ++f) packer.list(mesh.face(f));
-  return content_key(packer.bytes());
 }
 
 }  // namespace ballast

@@ -27,9 +27,6 @@ ResolvedScene resolve_scene(const std::filesystem::path& file,
 /// contact.friction of a scene whose mesh files may be gone.
 double scene_friction(const std::filesystem::path& file);
 
-/// Of a polyhedron's vertices and faces, to the last bit.
-std::string mesh_key(const Polyhedron& mesh);
-
 /// A scene given by name ("vibrated_box") or path; names are looked up in the scene folder of the
 /// installation (see scene_folder()). Throws SceneFileError that lists what there is.
 std::filesystem::path find_scene(const std::string& name_or_path);

@@ -58,6 +58,13 @@ auto as_toml(const Value& value) {
     toml::array array;
     for (const std::string& text : value) array.push_back(text);
     return array;
+  } else if constexpr (std::is_same_v<Value, NumberRows>) {
+    toml::array rows;
+    for (const std::vector<double>& row : value) {
+      toml::array& kept = *rows.emplace_back<toml::array>().as_array();
+      for (const double number : row) kept.push_back(number);
+    }
+    return rows;
   } else if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>) {
     return static_cast<std::int64_t>(value);
   } else {
@@ -108,6 +115,21 @@ std::string take(const toml::node& node, const ValueRule&, std::vector<std::stri
     if (!take(entry, {}, values.emplace_back()).empty()) return "not only texts";
   return "";
 }
+std::string take(const toml::node& node, const ValueRule& rule, NumberRows& rows) {
+  if (!node.is_array()) return "not a list";
+  rows.clear();
+  for (const toml::node& entry : *node.as_array()) {
+    const auto* row = entry.as_array();
+    const std::string name = "row " + std::to_string(rows.size());
+    if (!row || row->size() != rule.columns)
+      return name + " has not " + std::to_string(rule.columns) + " numbers";
+    rows.emplace_back();
+    for (const toml::node& number : *row)
+      if (!take(number, {}, rows.back().emplace_back()).empty())
+        return name + " has an entry that is no finite number";
+  }
+  return "";
+}
 
 /// "a number > 0", "true or false", ...: what is expected, without its unit.
 template <class Value>
@@ -124,6 +146,8 @@ std::string expected_text(const Value&, const ValueRule& rule) {
     std::string text;
     for (const char* word : rule.words) add_to_list(text, '"' + std::string(word) + '"');
     return rule.words.empty() ? "a text" : "one of " + text;
+  } else if constexpr (std::is_same_v<Value, NumberRows>) {
+    return "a list of rows of " + std::to_string(rule.columns) + " finite numbers";
   } else {
     return std::is_same_v<Value, Vec3> ? "three finite numbers" : "a list of texts";
   }

@@ -44,12 +44,16 @@ struct ValueRule {
   std::int64_t high = std::numeric_limits<std::int64_t>::max();
   const char* unit = "";                ///< as messages write it, "kg/m^3"; empty: a pure number
   std::vector<const char*> words = {};  ///< one of which a text must be; none: any text
+  size_t columns = 0;                   ///< of a list of rows
 };
 inline ValueRule in(const NumberRange& range, const char* unit = "") {
   return {.range = range, .unit = unit};
 }
 inline ValueRule of_unit(const char* unit) { return in(any_number, unit); }
 inline ValueRule whole(int low, int high = 1'000'000'000) { return {.low = low, .high = high}; }
+inline ValueRule rows_of(size_t columns, const char* unit = "") {
+  return {.unit = unit, .columns = columns};
+}
 inline ValueRule one_of(std::vector<const char*> words) { return {.words = std::move(words)}; }
 
 /// Whether a key must be there.
@@ -61,9 +65,12 @@ enum class Presence {
   only_where_given
 };
 
+/// Rows of numbers, all of one length.
+using NumberRows = std::vector<std::vector<double>>;
+
 /// Where a value is kept; its type says what stands in the file.
 using ValuePlace = std::variant<double*, int*, std::uint64_t*, bool*, std::string*, Vec3*,
-                                std::vector<std::string>*>;
+                                std::vector<std::string>*, NumberRows*>;
 
 /// Parses a file and applies overrides "dotted.key=value" (elements of arrays of tables by index:
 /// body.0.mass=2). A value is TOML; a bare word is taken as a string, so that a shell needs no

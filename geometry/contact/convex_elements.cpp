@@ -1,0 +1,106 @@
+#include "geometry/contact/convex_elements.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+namespace ballast {
+namespace {
+
+constexpr int part_shift = 16;  // of the 31 bits that a key has for each body's feature
+constexpr int most_features = 1 << part_shift, most_parts = 1 << (31 - part_shift);
+
+/// The same feature of numbered parts of the bodies; turned round where a and b change places.
+std::uint64_t key_of_parts(std::uint64_t key, int part_a, int part_b, bool is_turned) {
+  constexpr std::uint64_t low_bits = (std::uint64_t{1} << 31) - 1;
+  std::uint64_t kind = key >> 62;
+  std::uint64_t a = (key >> 31 & low_bits) | static_cast<std::uint64_t>(part_a) << part_shift;
+  std::uint64_t b = (key & low_bits) | static_cast<std::uint64_t>(part_b) << part_shift;
+  if (is_turned) {
+    std::swap(a, b);
+    if (kind < 2) kind = 1 - kind;  // a vertex of the one is a vertex of the other
+  }
+  return kind << 62 | a << 31 | b;
+}
+
+void check_period(std::span<const ContactShape> bodies, const Period& period) {
+  const double length = period.vector.norm();
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    const std::string name = "body " + std::to_string(b);
+    if (!bodies[b].polyhedron) {
+      if (std::abs(bodies[b].plane.normal.dot(period.vector)) > 1e-9 * length)
+        throw std::invalid_argument(name + ": a plane that cuts the period");
+    } else if (!(4.0 * bodies[b].polyhedron->circumradius() < length)) {
+      throw std::invalid_argument(name + ": not smaller than half a period");
+    }
+  }
+}
+
+}  // namespace
+
+bool ConvexElements::are_needed(std::span<const ContactShape> bodies, const Period& period) {
+  return period.repeats() ||
+         std::ranges::any_of(bodies, [](const ContactShape& body) { return !body.parts.empty(); });
+}
+
+ConvexElements::ConvexElements(std::span<const ContactShape> bodies, const Period& period)
+    : period_(period) {
+  if (period.repeats()) check_period(bodies, period);
+  for (const bool is_image : {false, true}) {
+    if (is_image && !period.repeats()) break;
+    for (size_t b = 0; b < bodies.size(); ++b) {
+      const int body = static_cast<int>(b);
+      if (!bodies[b].polyhedron) {
+        if (!is_image) elements_.push_back({bodies[b], {}, body, 0, false});
+        continue;
+      }
+      int part = 0;
+      for (const ConvexPart& convex : convex_parts(bodies[b])) {
+        if (part == most_parts || convex.polyhedron->edge_count() >= most_features)
+          throw std::invalid_argument("body " + std::to_string(b) +
+                                      ": too many parts, or edges of one, for contact keys");
+        const ContactShape shape{convex.polyhedron, {}, bodies[b].fixed};
+        elements_.push_back({shape, convex.pose, body, part++, is_image});
+      }
+    }
+  }
+  poses_.resize(elements_.size());
+  reach_.resize(elements_.size());
+}
+
+std::vector<ContactShape> ConvexElements::shapes() const {
+  std::vector<ContactShape> shapes;
+  for (const Element& element : elements_) shapes.push_back(element.shape);
+  return shapes;
+}
+
+void ConvexElements::place(std::span<const Pose> bodies, std::span<const double> reach) {
+  for (size_t e = 0; e < elements_.size(); ++e) {
+    const Element& element = elements_[e];
+    const Pose& body = bodies[element.body];
+    poses_[e].rotation = body.rotation * element.pose.rotation;
+    poses_[e].position = body.rotation * element.pose.position;
+    poses_[e].position += element.shape.polyhedron ? period_.wrapped(body.position) : body.position;
+    if (element.is_image) poses_[e].position += period_.vector;
+    reach_[e] = reach[element.body];
+  }
+}
+
+void ConvexElements::name_bodies(std::vector<ContactPoint>& contacts) const {
+  for (ContactPoint& contact : contacts) {
+    const Element &a = elements_[contact.body_a], &b = elements_[contact.body_b];
+    const bool is_turned = a.shape.polyhedron && a.body > b.body;
+    contact.feature = key_of_parts(contact.feature, a.part, b.part, is_turned);
+    contact.body_a = a.body;
+    contact.body_b = b.body;
+    if (!is_turned) continue;
+    std::swap(contact.body_a, contact.body_b);
+    contact.normal = -contact.normal;
+  }
+  std::ranges::sort(contacts, {}, [](const ContactPoint& contact) {
+    return std::tuple(contact.body_a, contact.body_b, contact.feature);
+  });
+}
+
+}  // namespace ballast

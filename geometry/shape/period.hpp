@@ -1,0 +1,27 @@
+#pragma once
+// A world that repeats itself along one direction.
+
+#include <cmath>
+
+#include "geometry/shape/pose.hpp"
+
+namespace ballast {
+
+/// After this vector [m] the world repeats itself; zero: it does not. Where something is counts
+/// only up to whole periods.
+struct Period {
+  Vec3 vector = Vec3::Zero();
+
+  bool repeats() const { return !vector.isZero(0.0); }
+  /// The image of a place that lies in the first period, 0 <= x.P / P.P < 1.
+  Vec3 wrapped(const Vec3& x) const { return repeats() ? Vec3(x - periods(x, 0.0)) : x; }
+  /// Of the vectors that differ from x by whole periods the one least along the period.
+  Vec3 nearest(const Vec3& x) const { return repeats() ? Vec3(x - periods(x, 0.5)) : x; }
+
+ private:
+  Vec3 periods(const Vec3& x, double ahead) const {
+    return std::floor(x.dot(vector) / vector.squaredNorm() + ahead) * vector;
+  }
+};
+
+}  // namespace ballast

@@ -1,0 +1,40 @@
+#pragma once
+// Motion that is given and not computed: of walls and of bodies, as a function of time.
+
+#include <utility>
+#include <vector>
+
+#include "geometry/shape/pose.hpp"
+
+namespace ballast {
+
+/// rate t + amplitude (1 - cos 2 pi nu t) + what a table says: linear between its rows, which are
+/// sorted by time [s], and held before the first and after the last. Zero at rest, and at t = 0
+/// without a table. `Value`: double or Vec3.
+template <class Value>
+struct Course {
+  Value rate, amplitude;
+  double frequency = 0.0;  ///< nu [Hz]
+  std::vector<std::pair<double, Value>> table = {};
+
+  Value at(double t) const;
+  /// Its derivative; at a row of the table that of the piece after it.
+  Value rate_at(double t) const;
+};
+
+/// A body is shifted, and turned about an axis that is shifted with it.
+struct ImposedMotion {
+  Course<Vec3> shift{Vec3::Zero(), Vec3::Zero()};  ///< [m], world frame
+  Vec3 axis = Vec3::UnitZ();                       ///< unit, world frame
+  Vec3 centre = Vec3::Zero();                      ///< a point of the axis at t = 0 [m]
+  Course<double> turn{0.0, 0.0};                   ///< about the axis, right-handed [rad]
+
+  /// Where a body is that stands at `start` when shift and turn are zero.
+  Pose pose_at(double t, const Pose& start) const;
+  /// Of the body's point that is at `place` at that time, world frame [m/s].
+  Vec3 velocity_at(double t, const Vec3& place) const;
+  /// Angular velocity, world frame [rad/s].
+  Vec3 spin_at(double t) const { return turn.rate_at(t) * axis; }
+};
+
+}  // namespace ballast
