@@ -151,8 +151,6 @@ void read_force(TomlTable force, ForceSpec& spec) {
 
 /// A body that follows a motion has no freedom: what it begins with is the motion's.
 void read_imposed(TomlTable& table, BodySpec& body) {
-  table.know("motion");
-  if (!table.has("motion")) return;
   for (const char* key : {"velocity", "spin", "locked"})
     if (table.has(key)) table.fail(key, "given together with motion, which says how it moves");
   body.imposed = read_motion(table.section("motion"), body.pose.position);
@@ -160,15 +158,20 @@ void read_imposed(TomlTable& table, BodySpec& body) {
   body.free_rotation = false;
 }
 
+void read_own_motion(TomlTable& table, BodySpec& body) {
+  table.know("motion");
+  if (table.has("motion")) return read_imposed(table, body);
+  table.read("velocity", &body.velocity, of_unit("m/s"));
+  table.read("spin", &body.spin, of_unit("rad/s"));
+  read_locks(table, body);
+}
+
 BodySpec read_body(TomlTable& table, const fs::path& folder, Scene& scene, size_t number) {
   BodySpec body;
   body.name = "body_" + std::to_string(number);
   table.read("name", &body.name);
   table.read("position", &body.pose.position, of_unit("m"));
-  table.read("velocity", &body.velocity, of_unit("m/s"));
-  table.read("spin", &body.spin, of_unit("rad/s"));
-  read_locks(table, body);
-  read_imposed(table, body);
+  read_own_motion(table, body);
   body.material = read_material(table, scene);
   ReadShape shape = read_shape(table, folder);
   if (shape.is_surface && body.can_move())
@@ -345,7 +348,7 @@ void read_material_pairs(const std::vector<TomlTable>& tables, Scene& scene) {
   for (TomlTable table : tables) {
     std::vector<std::string> names;
     MaterialPair pair{-1, -1, 0.0, scene.restitution};
-    table.read("materials", &names);
+    table.read("materials", &names, {}, required);
     table.read("friction", &pair.friction, in(friction_range), required);
     table.read("restitution", &pair.restitution, in(zero_to_one));
     table.finish();
