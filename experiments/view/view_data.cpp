@@ -221,7 +221,10 @@ std::optional<ViewData> view_of_run(const RunData& run) {
     if (forces->frame_count() > 0)
       view.contacts = [forces](size_t frame) { return forces->of_frame(frame); };
   }
-  if (run.scene) view.title = run.scene->title;
+  if (run.scene) {
+    view.title = run.scene->title;
+    view.system.period = run.scene->period;
+  }
   add_curves(run, view);
   return view;
 }

@@ -211,9 +211,15 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
   head["contact_frames"] = head["contact_counts"] = Json::array();
   for (const size_t k : thinned(chosen.size(), stride)) {
     const MotionState& frame = view.frames[chosen[k]];
-    const std::vector<FrameContact> contacts = view.contacts(chosen[k]);
+    std::vector<FrameContact> contacts = view.contacts(chosen[k]);
     // before its first step a run knows no forces: those of the next frame stand for them
     if (frame.step == 0 && contacts.empty()) continue;
+    // a chain across the end of a period would go all the way back
+    std::erase_if(contacts, [&](const FrameContact& contact) {
+      const Vec3 way = frame.pose[contact.body_b].position - frame.pose[contact.body_a].position;
+      return std::max(contact.body_a, contact.body_b) < view.system.grain_count &&
+             view.system.period.nearest(way) != way;
+    });
     head["contact_frames"].push_back(k);
     head["contact_counts"].push_back(contacts.size());
     int last = 0;

@@ -158,7 +158,7 @@ struct SolverSpec {
   static SolverSpec for_any_scene() {
     SolverSpec spec;
     spec.name = "auto";
-    spec.max_iterations = 1000;
+    spec.max_iterations = 100000;  // sweeps are cheap beside a Newton step: auto knows when
     return spec;
   }
 };
