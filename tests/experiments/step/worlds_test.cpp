@@ -3,6 +3,7 @@
 // docs/theory/known_answers.md.
 
 #include <functional>
+#include <iostream>
 #include <numbers>
 
 #include "experiments/step/time_step.hpp"
@@ -276,4 +277,133 @@ TEST_CASE("chute: along the period only the base and gravity push") {
   for (const Pose& pose : world.state.pose)
     if (std::abs(pose.position.y()) < 0.039)
       CHECK(pose.position.x() == Approx(0.08).margin(0.0801));
+}
+
+// What takes a minute or more, to be run by hand: step_test "[.worlds]". The lines that it writes
+// are the table of docs/theory/known_answers.md.
+
+namespace {
+
+/// Of a quantity that is watched after each step.
+struct Mean {
+  double sum = 0.0;
+  long count = 0;
+  void take(double x) { sum += x, ++count; }
+  double value() const { return sum / static_cast<double>(count); }
+};
+
+void tell(const std::string& line) { std::cout << line << std::endl; }
+
+}  // namespace
+
+TEST_CASE("drum: power and slope in the steady state", "[.worlds]") {
+  std::vector<double> slopes;
+  for (const char* friction : {"0.1", "0.5"}) {
+    World world("drum", {std::string("contact.friction=") + friction});
+    world.run_to(2.0);
+    const double before = world.last.kinetic_energy;
+    double given = 0.0, dissipated = 0.0, gravity_work = 0.0, corrected = 0.0;
+    Mean arm, angle;
+    world.run_to(world.scene.duration, [&] {
+      const Vec3 centre = world.centre_of_mass();
+      arm.take(std::abs(centre.x()));
+      angle.take(std::atan2(-centre.x(), -centre.z()));
+      given += world.last.work_prescribed;
+      dissipated += world.last.dissipated;
+      gravity_work += world.last.work_gravity;
+      corrected += world.last.work_correction;
+    });
+    const double weight = world.free_mass() * gravity;
+    const double power = given / 3.0, known = 0.6 * weight * arm.value();
+    slopes.push_back(angle.value() * 180.0 / std::numbers::pi);
+    tell(
+        printed("drum, mu = %s: power of the drum %.4f W, omega m g |x_cm| = %.4f W, dissipated "
+                "%.4f W, slope %.1f degrees",
+                friction, power, known, dissipated / 3.0, slopes.back()));
+    CHECK(power == Approx(known).epsilon(0.05));
+    CHECK(given + gravity_work - dissipated ==
+          Approx(world.last.kinetic_energy - before).margin(1e-3 * given));
+  }
+  CHECK(slopes[1] > slopes[0] + 5.0);
+}
+
+TEST_CASE("chute: base shear over pressure, and Bagnold's profile", "[.worlds]") {
+  World world("chute");
+  world.run_to(3.0);
+  Vec3 pushed = Vec3::Zero();
+  const Vec3 before = world.momentum();
+  std::vector<Mean> layers(12);
+  double top = 0.0;
+  world.run_to(world.scene.duration, [&] {
+    for (size_t b = 0; b < world.system.bodies.size(); ++b) {
+      if (!world.is_free(b)) {
+        pushed += world.force_on(world.system.bodies[b].name) * world.scene.step;
+        continue;
+      }
+      const double z = world.state.pose[b].position.z();
+      top = std::max(top, z);
+      const auto layer = static_cast<size_t>(std::max(0.0, z / 0.0125));
+      if (layer < layers.size()) layers[layer].take(world.state.velocity[b].x());
+    }
+  });
+  const Vec3 gained = world.momentum() - before;
+  tell(
+      printed("chute: base shear/pressure %.4f with the flow's change of momentum %.4f, "
+              "tan(theta) = 0.5317",
+              pushed.x() / -pushed.z(), (pushed.x() + gained.x()) / -(pushed.z() + gained.z())));
+  std::string profile;
+  for (const Mean& layer : layers)
+    if (layer.count > 0) add_to_list(profile, printed("%.3f", layer.value()));
+  tell("chute: mean velocity [m/s] of layers of 12.5 mm from the base: " + profile +
+       printed("; highest bead at %.3f m", top));
+  CHECK((pushed.x() + gained.x()) / -(pushed.z() + gained.z()) == Approx(0.5317).epsilon(2e-3));
+}
+
+TEST_CASE("silo: all beads arrive", "[.worlds]") {
+  World world("silo");
+  const auto left = [&] {
+    int count = 0;
+    for (const Pose& pose : world.state.pose) count += pose.position.z() > 0.3;
+    return count - 1;  // the silo itself
+  };
+  double half = 0.0, most = 0.0;
+  world.run_to(world.scene.duration, [&] {
+    if (half == 0.0 && left() <= 175) half = world.state.time;
+    if (most == 0.0 && left() <= 20) most = world.state.time;
+  });
+  tell(printed(
+      "silo: %d of 350 beads are left above the orifice after %g s; 175 were out at "
+      "%.3f s, 330 at %.3f s: %.2f kg/s",
+      left(), world.scene.duration, half, most, 155.0 / 350.0 * world.free_mass() / (most - half)));
+  CHECK(left() == 0);
+}
+
+TEST_CASE("Janssen's bin: walls carry what the bottom does not", "[.worlds]") {
+  for (const char* count : {"200", "400"}) {
+    World world("janssen", {std::string("crowd.0.count=") + count});
+    const double weight = world.free_mass() * gravity;
+    Mean rest, sunk;
+    world.run_to(world.scene.duration, [&] {
+      const double share = -world.force_on("bottom").z() / weight;
+      if (world.state.time > 0.8 && world.state.time < 0.9) rest.take(share);
+      if (world.state.time > 1.1 && world.state.time < 1.3) sunk.take(share);
+    });
+    tell(
+        printed("janssen, %s beads of %.2f N: the bottom carries %.3f of the weight at rest, %.3f "
+                "while it sinks; top at %.3f m",
+                count, weight, rest.value(), sunk.value(), 2.0 * world.centre_of_mass().z()));
+    CHECK(sunk.value() < 1.0);
+  }
+}
+
+TEST_CASE("wall on a table that tilts in 5 s", "[.worlds]") {
+  for (const auto& [degrees, stands] : {std::pair(5.7, true), std::pair(6.0, false)}) {
+    World world("wall_tilted", {printed("body.0.motion.turn.amplitude_degrees=%g", degrees)});
+    const double before = world.centre_of_mass().z();
+    world.run_to(world.scene.duration);
+    const double fallen = before - world.centre_of_mass().z();
+    tell(printed("wall_tilted: up to %.1f degrees; the centre of mass is %.4f m lower after %g s",
+                 2.0 * degrees, fallen, world.scene.duration));
+    CHECK((fallen < 0.02) == stands);
+  }
 }

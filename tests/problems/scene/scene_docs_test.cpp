@@ -71,7 +71,7 @@ std::string scene_with(const Row& row) {
                       : is_of("grain:")   ? "shape = \"grain\"\nradius = 1\n"
                       : is_of("mesh:")    ? "shape = \"mesh\"\nfile = \"stone.obj\"\n"
                       : is_of("hull:")    ? "shape = \"hull\"\n"
-                                            "points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"
+                                            "points = [[0,0,0], [1,0,0], [0,1,0], [0,0,1]]\n"
                       : is_of("surface:") ? "shape = \"surface\"\nfile = \"stone.obj\"\n"
                                             "thickness = 0.1\nlocked = [\"x\", \"y\", \"z\", "
                                             "\"rotation\"]\n"
