@@ -107,6 +107,31 @@ TEST_CASE("obj: every grain is an object of its own vertices") {
   }
 }
 
+TEST_CASE("a body of parts is exported part by part") {
+  const TemporaryFolder folder;
+  const auto cube = std::make_shared<const Polyhedron>(make_box(Vec3(1, 1, 1)));
+  const std::vector<PlacedShape> cubes{{cube, {Vec3(2, 0, 0), Quat::Identity()}}, {cube, {}}};
+  const CompoundShape compound = make_compound(cubes);
+  BodySpec spec{.name = "two", .shape = compound.hull, .parts = compound.parts};
+  spec.pose = compound.pose;
+  MechanicalSystem system;
+  MotionState state;
+  add_body(system, state, spec, compound.volume);
+  export_state(system, state, folder.path() / "two.obj");
+  const std::string text = file_bytes(folder.path() / "two.obj");
+  const auto count = [&](const char* word) {
+    long found = 0;
+    for (size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  CHECK((count("\nv ") == 16 && count("\nf ") == 12 && count("\no ") == 1));
+  CHECK(text.find("v 2.5 ") != std::string::npos);
+  export_state(system, state, folder.path() / "two.vtp");
+  const std::string xml = read_xml(folder.path() / "two.vtp");
+  CHECK(vtk_array<float>(xml, "Points").size() == 48);
+  CHECK(vtk_array<std::int32_t>(xml, "grain") == std::vector<std::int32_t>(12, 0));
+}
+
 TEST_CASE("vtp: well-formed, with the faces of all grains") {
   const TemporaryFolder folder;
   const MechanicalSystem system = sample_system();

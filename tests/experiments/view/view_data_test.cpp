@@ -70,6 +70,26 @@ TEST_CASE("bodies without a driven wall have the energy's curve, and forces wher
   CHECK_FALSE(view_of_run(finished_run(other, "incline", {"scene.duration=0.03"}))->contacts);
 }
 
+TEST_CASE("bodies of parts come back from the record with them") {
+  const TemporaryFolder folder;
+  const RunData run = finished_run(folder, "chain", {"scene.duration=0.01"});
+  const auto view = view_of_run(run);
+  REQUIRE(view);
+  MotionState state;
+  const MechanicalSystem system = make_system(*run.scene, state);
+  REQUIRE(view->system.bodies.size() == system.bodies.size());
+  for (size_t b = 0; b < system.bodies.size(); ++b) {
+    const auto &ours = view->system.bodies[b].shape.parts, &own = system.bodies[b].shape.parts;
+    REQUIRE(ours.size() == 4);
+    for (size_t k = 0; k < 4; ++k) {
+      CHECK(ours[k].pose.position == own[k].pose.position);
+      CHECK(ours[k].pose.rotation.coeffs() == own[k].pose.rotation.coeffs());
+      for (int v = 0; v < 8; ++v)
+        CHECK(ours[k].polyhedron->vertex(v) == own[k].polyhedron->vertex(v));
+    }
+  }
+}
+
 TEST_CASE("a scene, a rain and a mesh can be seen") {
   const TemporaryFolder folder;
   const ViewData incline = view_of_scene(read_scene(find_scene("incline")), folder.path());
