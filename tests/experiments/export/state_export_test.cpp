@@ -112,7 +112,10 @@ TEST_CASE("a body of parts is exported part by part") {
   const auto cube = std::make_shared<const Polyhedron>(make_box(Vec3(1, 1, 1)));
   const std::vector<PlacedShape> cubes{{cube, {Vec3(2, 0, 0), Quat::Identity()}}, {cube, {}}};
   const CompoundShape compound = make_compound(cubes);
-  BodySpec spec{.name = "two", .shape = compound.hull, .parts = compound.parts};
+  BodySpec spec;
+  spec.name = "two";
+  spec.shape = compound.hull;
+  spec.parts = compound.parts;
   spec.pose = compound.pose;
   MechanicalSystem system;
   MotionState state;
