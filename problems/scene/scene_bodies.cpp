@@ -287,8 +287,9 @@ std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd)
       model = std::make_shared<const BodySpec>(std::move(body));
     }
     BodySpec& body = bodies.emplace_back(*model);
-    const Vec3 corner(static_cast<double>(k % along_x), static_cast<double>(k / along_x % along_y),
-                      static_cast<double>(k / along_x / along_y));
+    const long layer = k / (along_x * along_y), row = k / along_x % along_y;
+    const Vec3 corner(static_cast<double>(k % along_x), static_cast<double>(row),
+                      static_cast<double>(layer));
     const double slack = (room - 1.0) * crowd.radius;
     body.pose.position = crowd.from + cell * (corner + Vec3::Constant(0.5));
     for (double& x : body.pose.position) x += random.uniform(-slack, slack);
