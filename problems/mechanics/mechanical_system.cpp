@@ -120,7 +120,7 @@ void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec
   state.pose.push_back(pose);
   state.velocity.push_back(Vec3::Zero());
   state.spin.push_back(Vec3::Zero());
-  if (spec.motion == WallMotion::prescribed) impose(spec.imposed, system, state);
+  if (spec.motion == WallMotion::prescribed) impose(*spec.imposed, system, state);
 }
 
 MechanicalSystem make_system(const Scene& scene, MotionState& state) {

@@ -45,10 +45,10 @@ struct WallSpec {
   double offset = 0.0;    ///< [m] at t = 0
   double friction = 0.0;  ///< mu of contacts with this wall
   WallMotion motion = WallMotion::fixed;
-  double mass = 0.0;           ///< driven: [kg]
-  HarmonicLoad load = {};      ///< driven
-  ImposedMotion imposed = {};  ///< prescribed; it does not turn
-  int material = -1;           ///< number in Scene::materials; -1: none
+  double mass = 0.0;                                  ///< driven: [kg]
+  HarmonicLoad load = {};                             ///< driven
+  std::shared_ptr<const ImposedMotion> imposed = {};  ///< prescribed; it does not turn
+  int material = -1;                                  ///< number in Scene::materials; -1: none
 };
 
 /// f(t) = constant + amplitude cos(2 pi nu t + phase): a force on a body's centre of mass, world

@@ -90,7 +90,9 @@ WallSpec read_wall(TomlTable& table, Scene& scene) {
     wall.motion = WallMotion::prescribed;
     if (!table.has("velocity") && !table.has("amplitude") && !table.has("table"))
       table.fail("motion", "without a motion, expected velocity, amplitude or table");
-    read_shift(table, wall.imposed.shift, optional);
+    ImposedMotion imposed;
+    read_shift(table, imposed.shift, optional);
+    wall.imposed = std::make_shared<const ImposedMotion>(std::move(imposed));
   } else if (motion == "driven") {
     wall.motion = WallMotion::driven;
     table.read("mass", &wall.mass, in(positive, "kg"), required);
