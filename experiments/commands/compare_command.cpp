@@ -25,36 +25,57 @@
 namespace ballast {
 namespace {
 
-ExitCode collect(const std::filesystem::path& output, int most_grains) {
-  require_own_folder(output, {"runs", "packings"});
+struct CollectOptions {
+  CollectionOptions made{.folder = "results/collection"};
+  std::filesystem::path list;
+  std::string part = "small";
+  int largest = 1'000'000;
+};
+
+ExitCode collect(const CollectOptions& options) {
+  const std::filesystem::path& folder = options.made.folder;
+  if (options.part != "small" && options.part != "all")
+    throw UsageError("compare collect: --part " + options.part + ": expected small or all");
+  require_own_folder(folder, {"runs", "packings", "problems"});
   InterruptGuard guard;
-  const auto runs = collection_runs(most_grains);
+  create_folder(folder / "runs");
+  // What the collection was made from stays with it.
+  const std::filesystem::path kept = folder / "collection.toml";
+  if (options.list.empty()) write_whole_file(kept, collection_list());
+  std::vector<CollectedRun> runs = read_collection(options.list.empty() ? kept : options.list);
+  if (!options.list.empty()) write_whole_file(kept, read_whole_file(options.list));
+  std::erase_if(runs, [&](const CollectedRun& run) {
+    return (run.is_large && options.part == "small") || run.bodies > options.largest;
+  });
   size_t number = 0;
   const auto announce = [&](const CollectedRun& run) {
     std::cout << printed("%3zu/%zu  ", ++number, runs.size()) << run.name << std::endl;
   };
-  const ExitCode code = make_collection(output, runs, announce);
+  const ExitCode code = make_collection(options.made, runs, announce);
   if (code != ExitCode::ok) {
     std::cerr << "ballast: compare collect: stopped; the same command goes on" << std::endl;
     return code;
   }
-  std::cout << "made: " << (output / "problems" / "manifest.csv").string() << std::endl;
+  std::cout << "made: " << (folder / "manifest.csv").string() << std::endl;
   return ExitCode::ok;
 }
 
 Command collect_command() {
-  struct Options {
-    std::filesystem::path output = "results/collection";
-    int largest = 2400;
-  };
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CollectOptions>();
+  CollectionOptions& made = options->made;
   return {
       "collect",
-      "Makes the collection: 72 captured problems of 60 to 10000 contacts, with a manifest",
-      {{"--output DIR", &options->output, "Where it is made; the same command goes on"},
-       {"--largest", &options->largest,
-        "Grains of the largest runs: 25, 80, 200, 600, 1200, 2400 and below", between(25, 2400)}},
-      [options] { return collect(options->output, options->largest); }};
+      "Makes the collection: problems of many worlds, with a manifest and reference solutions",
+      {{"--output DIR", &made.folder, "Where it is made; the same command goes on"},
+       {"--part", &options->part, "small (up to some 1000 contacts: minutes) or all (hours)"},
+       {"--largest", &options->largest, "Leaves out scenes of more grains or bodies", at_least(1)},
+       {"--held", &made.keeps_held_apart,
+        "Keeps the held fifth in held/, apart from what a method may be tuned on"},
+       {"--exact-seconds", &made.reference_seconds,
+        "Spent on the reference solution of one problem; 0: none is looked for", at_least(0)},
+       {"--threads", &made.threads, "Of the runs: the same bits", at_least(1)},
+       {"--list FILE", &options->list, "Another list than the built-in one"}},
+      [options] { return collect(*options); }};
 }
 
 struct DiffOptions {

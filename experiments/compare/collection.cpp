@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "experiments/compare/compare_case.hpp"
+#include "experiments/compare/comparison.hpp"
 #include "experiments/run/run.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
+#include "platform/hdf5_file.hpp"
+#include "platform/interrupt.hpp"
+#include "platform/random.hpp"
 #include "platform/text.hpp"
+#include "problems/algebra/contact_error.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"
 
@@ -16,71 +22,182 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int grain_counts[] = {25, 80, 200, 600, 1200, 2400};
-constexpr int settling_step = 10;  // 2 ms after the rain: no grain has come to rest
+/// In six digits; nothing for what is not known.
+std::string cell(double value) { return std::isfinite(value) ? printed("%.6g", value) : ""; }
 
-/// What all runs have in common. The packing is taken as soon as the highest grain has fallen, and
-/// a light wall answers its drive within the run: 62 ms.
-const std::vector<std::string> common_overrides = {
-    "control_volume.margin_x=0.03",    "deposit.lid_pressure_weight=0",
-    "deposit.settle_time=0",           "deposit.rest_velocity=0.5",
-    "drive.wall_mass_over_grains=0.1", "scene.duration=0.062",
-    "solver.max_iterations=400",       "record.forces=false"};
+/// Rounded to single precision, so that the last bit of a machine's sines and powers is not in the
+/// problem. A mass block stays symmetric positive definite.
+void round_entries(DynamicsForm& dynamics) {
+  const auto round = [](auto& values) {
+    for (double& value : values) value = static_cast<double>(static_cast<float>(value));
+  };
+  round(dynamics.mass);
+  round(dynamics.h);
+  round(dynamics.v_free);
+  round(dynamics.bias);
+}
 
-const CollectedRun scenes[] = {{"shaken", {"drive.frequency=20", "drive.f_max_over_weight=1"}},
-                               {"pressed", {"drive.f_min_over_weight=3", "contact.friction=1"}},
-                               {"released", {"drive.f_max_over_weight=0", "contact.friction=0.2"}}};
+/// The name of a made problem's file: "pile-c100-d0.3-R1-f0.3..0.3-a0.8-s1.hdf5". It begins with
+/// the family, as family_of_file() has it.
+std::string made_name(const std::string& family, const std::string& case_name) {
+  std::string name = family + case_name.substr(std::min(case_name.find('-'), case_name.size()));
+  for (char& c : name)
+    if (!is_plain(std::string(1, c), "-._=+")) c = '_';
+  return name + ".hdf5";
+}
+
+/// One collection under way.
+class Collection {
+ public:
+  explicit Collection(const CollectionOptions& options) : options_(options) {
+    manifest_.add_row(std::vector<std::string>{
+        "file", "family", "held", "content", "contacts", "rows", "bodies", "rank_deficiency",
+        "mass_ratio", "friction_min", "friction_max", "step", "phase", "warm_error"});
+    references_.add_row(std::vector<std::string>{"file", "exact", "error", "backend"});
+  }
+
+  ExitCode add(const CollectedRun& wanted) {
+    const fs::path source = options_.folder / "runs" / wanted.name;
+    fs::path problems = source / "problems";
+    if (wanted.scene.empty()) {
+      make_problems(wanted, problems);
+    } else {
+      problems = source / "capture";
+      if (const ExitCode code = run_scene(wanted, source); code != ExitCode::ok) return code;
+    }
+    if (!is_folder(problems)) return ExitCode::ok;
+    const std::string label = wanted.name.substr(wanted.family.size());  // "-25-1"
+    const std::vector<FoundProblem> all = find_problems(problems.string());
+    if (!wanted.scene.empty() && static_cast<long>(all.size()) != wanted.steps)
+      throw Error(source.string() + printed(": has %zu steps, the list asks for %ld: remove it",
+                                            all.size(), wanted.steps));
+    for (const FoundProblem& found : all) {
+      std::string name = found.name.string();
+      if (!wanted.scene.empty() && !label.empty()) name = label.substr(1) + '-' + name;
+      keep(wanted.family, name, found.file);
+      if (InterruptGuard::requested()) return ExitCode::failure;
+    }
+    return ExitCode::ok;
+  }
+
+  void write() {
+    write_whole_file(options_.folder / "manifest.csv", manifest_.take());
+    write_whole_file(options_.folder / "references.csv", references_.take());
+  }
+
+ private:
+  ExitCode run_scene(const CollectedRun& wanted, const fs::path& folder) const {
+    RunOptions running;
+    running.scene = wanted.scene;
+    running.overrides = wanted.overrides;
+    running.output = folder;
+    running.packing_cache = options_.folder / "packings";
+    running.resume = true;
+    running.capture = wanted.capture;
+    running.threads = options_.threads;
+    running.style = StatusLine::Style::quiet;
+    return run(running).code;
+  }
+
+  static void make_problems(const CollectedRun& wanted, const fs::path& folder) {
+    for (const CompareCase& made : compare_cases({wanted.made})) {
+      const fs::path file = folder / made_name(wanted.family, made.name);
+      if (is_there(file)) continue;
+      FrictionProblem problem = made.load().problem;
+      if (!problem.has_dynamics || problem.contact_count() == 0) continue;
+      problem.has_delassus = false;
+      round_entries(problem.dynamics);
+      create_folder(folder);
+      write_problem(file, problem);
+    }
+  }
+
+  /// Copies a problem to where it belongs, and notes what it is.
+  void keep(const std::string& family, const std::string& name, const fs::path& source) {
+    const LoadedCase loaded = compare_cases({source.string()}).front().load();
+    if (loaded.facts.contacts == 0 || !contents_.insert(loaded.facts.content).second) return;
+    const bool held = is_held(loaded.facts.content), apart = held && options_.keeps_held_apart;
+    const fs::path place = fs::path(family) / name,
+                   file = options_.folder / (apart ? "held" : "problems") / place,
+                   other = options_.folder / (apart ? "problems" : "held") / place;
+    create_folder(file.parent_path());
+    // Where the part was kept otherwise before, it moves with its reference.
+    for (const auto& [from, to] :
+         {std::pair(other, file), {reference_of(other), reference_of(file)}})
+      if (is_there(from)) fs::rename(from, to);
+    if (const std::string bytes = read_whole_file(source);
+        !is_there(file) || read_whole_file(file) != bytes)
+      write_whole_file(file, bytes);
+    note(fs::relative(file, options_.folder).string(), family, held, source, loaded);
+    if (options_.reference_seconds > 0.0) refer(file, loaded);
+  }
+
+  /// A line of the manifest.
+  void note(const std::string& name, const std::string& family, bool held, const fs::path& source,
+            const LoadedCase& loaded) {
+    const FrictionProblem& problem = loaded.problem;
+    const CaseFacts& facts = loaded.facts;
+    std::string step, phase = "made";
+    if (is_captured(source)) {
+      const CapturedProblem captured = read_captured(source);
+      step = std::to_string(captured.step);
+      phase = captured.phase;
+    }
+    const double warm_error =
+        loaded.warm_start.size() == 0
+            ? std::nan("")
+            : contact_error(problem, loaded.warm_start).natural_map_rms / facts.velocity_scale;
+    const auto friction = std::ranges::minmax(problem.friction);
+    manifest_.add_row(std::vector<std::string>{
+        name, family, held ? "1" : "0", facts.content, std::to_string(facts.contacts),
+        std::to_string(facts.rows), std::to_string(problem.dynamics.body_count()),
+        printed("%.4f", facts.rank_deficiency), cell(facts.mass_ratio), cell(friction.min),
+        cell(friction.max), step, phase, cell(warm_error)});
+  }
+
+  /// Finds the reference where none is there that is exact or had as much time, and notes it. What
+  /// an interrupt left is no result.
+  void refer(const fs::path& file, const LoadedCase& loaded) {
+    const fs::path answer = reference_of(file);
+    const std::string budget = "reference_seconds";
+    const auto number = [&](const std::string& name) {
+      return Hdf5Reader(answer).read_doubles("/ballast_answer/" + name).at(0);
+    };
+    if (!is_there(answer) ||
+        (number("exact") == 0.0 && number(budget) < options_.reference_seconds)) {
+      const Reference found = find_reference(loaded, options_.reference_seconds);
+      if (InterruptGuard::requested()) return;
+      write_solution(answer, loaded.problem,
+                     {found.impulses,
+                      {{"error", found.error},
+                       {"exact", found.is_exact},
+                       {budget, options_.reference_seconds}},
+                      {{"backend", found.solver}}});
+    }
+    references_.add_row(std::vector<std::string>{
+        fs::relative(file, options_.folder).string(), printed("%.0f", number("exact")),
+        printed("%.3g", number("error")), Hdf5Reader(answer).read_text("/ballast_answer/backend")});
+  }
+
+  const CollectionOptions& options_;
+  CsvWriter manifest_, references_;
+  std::set<std::string> contents_;  ///< that were kept: each once
+};
 
 }  // namespace
 
-std::vector<CollectedRun> collection_runs(int most_grains) {
-  std::vector<CollectedRun> runs;
-  for (const int grains : grain_counts) {
-    if (grains > most_grains) continue;
-    // The paper's section scaled with the number of grains, but no narrower than four of them.
-    const double width = std::max(0.22, 0.54 * std::cbrt(grains / 1200.0));
-    for (const CollectedRun& scene : scenes) {
-      CollectedRun run{scene.name + "-" + std::to_string(grains),
-                       {printed("grains.count=%d", grains), printed("box.length=%.3g", width),
-                        printed("box.width=%.3g", width)}};
-      run.overrides.insert(run.overrides.end(), common_overrides.begin(), common_overrides.end());
-      run.overrides.insert(run.overrides.end(), scene.overrides.begin(), scene.overrides.end());
-      runs.push_back(std::move(run));
-    }
-  }
-  return runs;
+bool is_held(const std::string& content) {
+  return SplitMix64(fnv1a("held|" + content)).below(5) == 0;
 }
 
-ExitCode make_collection(const fs::path& folder, std::span<const CollectedRun> runs,
+ExitCode make_collection(const CollectionOptions& options, std::span<const CollectedRun> runs,
                          const std::function<void(const CollectedRun&)>& told) {
-  CsvWriter manifest;
-  manifest.add_row(
-      std::vector<std::string>{"file", "content", "contacts", "rows", "step", "phase"});
+  Collection collection(options);
   for (const CollectedRun& wanted : runs) {
     told(wanted);
-    RunOptions options;
-    options.scene = "vibrated_box";
-    options.overrides = wanted.overrides;
-    options.output = folder / "runs" / wanted.name;
-    options.packing_cache = folder / "packings";
-    options.resume = true;
-    options.capture = CaptureSettings::parse(printed("every=95,steps=1,also=%d", settling_step));
-    options.style = StatusLine::Style::quiet;
-    if (const ExitCode code = run(options).code; code != ExitCode::ok) return code;
-    create_folder(folder / "problems" / wanted.name);
-    for (const FoundProblem& found : find_problems((options.output / "capture").string())) {
-      const std::string name = wanted.name + '/' + found.name.string();
-      write_whole_file(folder / "problems" / name, read_whole_file(found.file));
-      const CapturedProblem captured = read_captured(found.file);
-      const FrictionProblem& problem = captured.problem;
-      manifest.add_row(std::vector<std::string>{
-          name, content_of(problem, captured.start, captured.velocity_scale()),
-          std::to_string(problem.contact_count()), std::to_string(problem.row_count()),
-          std::to_string(captured.step),
-          captured.step == settling_step ? "settling" : captured.phase});
-    }
+    if (const ExitCode code = collection.add(wanted); code != ExitCode::ok) return code;
   }
-  write_whole_file(folder / "problems" / "manifest.csv", manifest.take());
+  collection.write();
   return ExitCode::ok;
 }
 

@@ -1,36 +1,41 @@
 #pragma once
-// A collection of captured problems that everybody can make: the same runs on every machine, and a
-// manifest of what is in each file.
+// A collection of problems that everybody can make: the same files on every machine, a manifest of
+// what is in each, and a reference solution beside each where one is found.
+//
+//   collection.toml                     the list that it was made from
+//   problems/<family>/<name>.hdf5       FCLIB, with a group /ballast where a run met the problem
+//   problems/<family>/<name>.exact      the reference (reference_of); depends on the time it had
+//   held/<family>/...                   the held part, where it is kept apart
+//   manifest.csv                        a line for each problem: the same on every machine
+//   references.csv                      a line for each reference
+//   runs/<name>, packings/              what the problems were taken from; may be removed
 
 #include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
-#include <vector>
 
+#include "experiments/compare/collection_list.hpp"
 #include "platform/error.hpp"
 
 namespace ballast {
 
-/// One run of vibrated_box, of which four steps are kept: one while the grains still settle, three
-/// under the wall's drive.
-struct CollectedRun {
-  std::string name;  ///< "shaken-80": the scene and the number of grains
-  std::vector<std::string> overrides;
+struct CollectionOptions {
+  std::filesystem::path folder;
+  bool keeps_held_apart = false;    ///< in held/, away from those that a method is tuned on
+  double reference_seconds = 10.0;  ///< for the reference of one problem; 0: none is looked for
+  int threads = 1;                  ///< of the runs: the same bits
 };
 
-/// Three scenes for each of six numbers of grains up to `most_grains`, 25 to 2400 (some 60 to 10000
-/// contacts): shaken (20 Hz: in and out), pressed (a constant load and much friction: passive),
-/// released (the wall gives way, little friction: active). The scenes of a size share their
-/// packing, whose grains have just fallen.
-std::vector<CollectedRun> collection_runs(int most_grains);
-
-/// Makes what is missing of `folder`: packings/, runs/<name>, problems/<name>/step_*.hdf5 and
-/// problems/manifest.csv, a line for each file: content (CaseFacts::content), contacts, rows, step,
-/// and the phase: "settling", then that of the driven wall. `told` is called before each run. The
-/// code is that of the first run that did not come to its end, of which nothing is lost. Throws
+/// Makes what is missing of the folder. `told` is called before each run. The code is that of the
+/// first run that did not come to its end; nothing of it is lost. Problems without contacts, made
+/// problems of which only W is known, and what is equal to an earlier problem are left out. Throws
 /// Error.
-ExitCode make_collection(const std::filesystem::path& folder, std::span<const CollectedRun> runs,
+ExitCode make_collection(const CollectionOptions& options, std::span<const CollectedRun> runs,
                          const std::function<void(const CollectedRun&)>& told);
+
+/// Whether the problem of this key (CaseFacts::content) is one of the held fifth: no method is
+/// tuned on it, and its results are told apart. The same on every machine.
+bool is_held(const std::string& content);
 
 }  // namespace ballast

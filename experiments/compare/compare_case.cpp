@@ -93,13 +93,20 @@ LoadedCase load_captured(const fs::path& file) {
   return loaded;
 }
 
+/// With the answer that is kept beside the file, if one is.
+LoadedCase with_reference(LoadedCase loaded, const fs::path& file) {
+  if (const fs::path answer = reference_of(file); is_there(answer))
+    loaded.exact = read_solution(answer, loaded.problem);
+  return loaded;
+}
+
 CompareCase file_case(const fs::path& file) {
   CompareCase made{.name = file.filename().string(),
                    .family = family_of_file(file.filename().string()),
                    .load =
                        [file] {
                          if (!is_there(file)) throw Error(file.string() + ": no such file");
-                         return load_case(read_problem(file));
+                         return with_reference(load_case(read_problem(file)), file);
                        },
                    .word = file.string()};
   try {
@@ -110,7 +117,7 @@ CompareCase file_case(const fs::path& file) {
     const std::string run = folder.filename().string(), phase = read_captured(file).phase;
     made.name = run + "/" + file.stem().string();
     made.family = run + (phase == "none" ? "" : ", " + phase);
-    made.load = [file] { return load_captured(file); };
+    made.load = [file] { return with_reference(load_captured(file), file); };
     made.has_bodies = true;
   } catch (const std::exception&) {
     // What cannot be read says so when it is loaded: it is one row, and the others go on.
@@ -255,6 +262,8 @@ void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
 }
 
 }  // namespace
+
+fs::path reference_of(fs::path problem_file) { return problem_file.replace_extension(".exact"); }
 
 std::string family_of_file(const std::string& file_name) {
   std::string family = file_name.substr(0, file_name.find('-'));

@@ -2,6 +2,7 @@
 // The problems of a comparison: files, folders, patterns and manufactured ones, each with what the
 // figures want to know of it.
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,7 +28,8 @@ struct LoadedCase {
   FrictionProblem problem;
   Impulses warm_start;  ///< empty: the case has none
   CaseFacts facts;
-  Impulses exact;  ///< a solution at 1e-9, where one was looked for and found
+  Impulses exact;  ///< a solution at 1e-9, where one was looked for and found; as loaded: what a
+                   ///< file's reference holds (reference_of), which may be no solution
   /// Where a contact is, for who looks for the worst one: "contact 12", with bodies and gap where
   /// they are known.
   std::function<std::string(int)> describe_contact;
@@ -59,6 +61,10 @@ LoadedCase load_case(FrictionProblem problem, double velocity_scale = 0.0,
 
 /// CaseFacts::content: all bits of the problem, its start and its scale.
 std::string content_of(const FrictionProblem& problem, const Impulses& start, double scale);
+
+/// Where the answer to a problem's file is kept from which distances are measured: beside it,
+/// "step_0000010.exact", an HDF5 file with /solution/r.
+std::filesystem::path reference_of(std::filesystem::path problem_file);
 
 /// "Capsules-i101-404.dat" -> "Capsules", "Rover1039.dat" -> "Rover".
 std::string family_of_file(const std::string& file_name);

@@ -47,11 +47,22 @@ struct ComparedSolver {
 void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const SolveLimits& limits,
                 CompareRow& row);
 
-/// Looks for a solution of the case to measure distances from: LoadedCase::exact, at 1e-9 of the
-/// natural map over the velocity scale. By newton_burst where the bodies are known, then by `auto`,
-/// in a child process from the warm start, within `max_seconds` of wall clock (0: not at all). What
-/// is found is kept in `folder` and judged anew where it is there already. Throws Error where the
-/// folder cannot be written.
+/// The best answer to a case that was found.
+struct Reference {
+  Impulses impulses;
+  double error = 0.0;     ///< the judge's natural map, rms, over the case's velocity scale
+  bool is_exact = false;  ///< it is a solution at 1e-9
+  std::string solver;     ///< "start": no backend had a better one than the warm start, or zeros
+};
+
+/// Looks for a solution by newton_burst, then by `auto`, each in a child process from the warm
+/// start, within `max_seconds` of wall clock together, about.
+Reference find_reference(const LoadedCase& loaded, double max_seconds);
+
+/// Sees to it that a solution of the case is known to measure distances from: LoadedCase::exact.
+/// One that is there is judged; otherwise find_reference() looks for it (`max_seconds` = 0: nobody
+/// does). What is found is kept in `folder` and judged anew where it is there already. Throws Error
+/// where the folder cannot be written.
 void find_exact(LoadedCase& loaded, double max_seconds, const std::filesystem::path& folder);
 
 struct CompareOptions {
