@@ -13,6 +13,7 @@
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/compare/comparison.hpp"
 #include "experiments/compare/live_page.hpp"
+#include "experiments/compare/ranking_page.hpp"
 #include "experiments/compare/stored_comparison.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
@@ -142,26 +143,42 @@ Command compare_diff_command() {
 
 struct MergeOptions {
   std::vector<std::string> folders;
-  std::filesystem::path output = "results/merged";
+  std::filesystem::path output;
 };
 
-ExitCode merge(const MergeOptions& options) {
+std::vector<StoredComparison> read_all(const MergeOptions& options) {
   require_own_folder(options.output, {});
   std::vector<StoredComparison> comparisons;
   for (const std::string& folder : options.folders) comparisons.push_back(read_comparison(folder));
+  return comparisons;
+}
+
+ExitCode merge(const MergeOptions& options) {
+  const std::vector<StoredComparison> comparisons = read_all(options);
   const size_t rows = write_merged(options.output, comparisons, own_command());
   std::cout << comparisons.size() << " comparisons, " << rows
             << " rows: " << (options.output / "compare.html").string() << std::endl;
   return ExitCode::ok;
 }
 
-Command merge_command() {
+ExitCode rank(const MergeOptions& options) {
+  const std::vector<CompareRow> rows =
+      write_origins(options.output, read_all(options), own_command());
+  write_ranking(options.output, rows);
+  std::cout << rows.size() << " rows: " << (options.output / "index.html").string() << std::endl;
+  return ExitCode::ok;
+}
+
+/// A command that makes one page of several comparisons.
+Command merging_command(const char* name, const char* meaning, const char* output,
+                        ExitCode (*act)(const MergeOptions&)) {
   const auto options = std::make_shared<MergeOptions>();
-  return {"merge",
-          "Comparisons of several jobs, machines, days as one; ratios within a machine",
+  options->output = output;
+  return {name,
+          meaning,
           {{"folders", &options->folders, "Folders of comparisons", required},
-           {"--output DIR", &options->output, "Folder of the page and its table"}},
-          [options] { return merge(*options); }};
+           {"--output DIR", &options->output, "Folder of the page and its table, new or empty"}},
+          [options, act] { return act(*options); }};
 }
 
 /// The words of the command line, and what is made of them.
@@ -314,7 +331,14 @@ Command compare_command() {
        {"--packing-cache DIR", &live.packing_cache,
         "Where deposited packings are kept (<output>/packings)"}},
       [options] { return compare(*options); },
-      {compare_diff_command(), merge_command(), collect_command()}};
+      {compare_diff_command(),
+       merging_command(
+           "merge", "Comparisons of several jobs, machines, days as one; ratios within a machine",
+           "results/merged", merge),
+       merging_command("ranking",
+                       "Who solves what, how fast, and whether the order holds: a page and a table",
+                       "results/ranking", rank),
+       collect_command()}};
 }
 
 }  // namespace ballast

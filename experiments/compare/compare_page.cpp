@@ -317,6 +317,8 @@ std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
     }
     CompareTable& table = tables.emplace_back();
     table.heading = printed("Tolerance %g, %s start", -what.second, name_of(what.first));
+    table.start = what.first;
+    table.tolerance = -what.second;
     table.cases = cases.size();
     for (auto& [solver, tally] : tallies) {
       tally.summary.solver = solver;

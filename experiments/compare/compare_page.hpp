@@ -57,6 +57,8 @@ struct BackendSummary {
 /// All backends of one start and tolerance: most solved first, then fastest.
 struct CompareTable {
   std::string heading;  ///< "Tolerance 0.01, cold start"
+  StartKind start = StartKind::cold;
+  double tolerance = 0.0;
   size_t cases = 0;
   std::vector<BackendSummary> backends;
 };

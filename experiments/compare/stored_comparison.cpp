@@ -90,21 +90,28 @@ MergedComparison merged(std::vector<StoredComparison> comparisons) {
   return all;
 }
 
-size_t write_merged(const fs::path& folder, const std::vector<StoredComparison>& comparisons,
-                    const std::string& command) {
-  const MergedComparison all = merged(comparisons);
-  if (all.rows.empty()) throw Error("compare merge: the comparisons have no rows");
-  Manifest manifest("compare merge", {command}, "");
+std::vector<CompareRow> write_origins(const fs::path& folder,
+                                      const std::vector<StoredComparison>& comparisons,
+                                      const std::string& command) {
+  MergedComparison all = merged(comparisons);
+  if (all.rows.empty()) throw Error("compare: the comparisons have no rows");
+  Manifest manifest("compare", {command}, "");
   for (const StoredComparison& c : comparisons) {
     const auto m = std::ranges::find(all.machines, c.machine) - all.machines.begin();
     manifest.summary(c.folder.string(), machine_name(static_cast<size_t>(m)) + ": " + c.machine +
                                             "; " + c.program + "; " + c.started);
   }
   create_folder(folder);
-  write_whole_file(folder / "results.csv", compare_csv(all.rows));
   manifest.write(folder / "manifest.json");
-  write_compare_page(folder, all.rows);
-  return all.rows.size();
+  return std::move(all.rows);
+}
+
+size_t write_merged(const fs::path& folder, const std::vector<StoredComparison>& comparisons,
+                    const std::string& command) {
+  const std::vector<CompareRow> rows = write_origins(folder, comparisons, command);
+  write_whole_file(folder / "results.csv", compare_csv(rows));
+  write_compare_page(folder, rows);
+  return rows.size();
 }
 
 const char* name_of(Change change) {

@@ -36,9 +36,13 @@ struct MergedComparison {
 /// Unreadable cases are left out. Throws Error: rows of two measures.
 MergedComparison merged(std::vector<StoredComparison> comparisons);
 
-/// Writes results.csv, manifest.json with who made what, and compare.html of all rows; returns
-/// their number. `command`: how it was called, for the manifest. Throws Error: no rows, as
-/// merged().
+/// Makes the folder and writes manifest.json, with who made what; returns all rows. `command`: how
+/// it was called, for the manifest. Throws Error: no rows, as merged().
+std::vector<CompareRow> write_origins(const std::filesystem::path& folder,
+                                      const std::vector<StoredComparison>& comparisons,
+                                      const std::string& command);
+
+/// The same, with results.csv and compare.html of all rows; returns their number.
 size_t write_merged(const std::filesystem::path& folder,
                     const std::vector<StoredComparison>& comparisons, const std::string& command);
 

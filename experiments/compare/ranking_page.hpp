@@ -1,0 +1,18 @@
+#pragma once
+// The public table of a collection's comparison: index.html and table.csv.
+
+#include <filesystem>
+#include <span>
+
+#include "experiments/compare/ranking.hpp"
+
+namespace ballast {
+
+/// Writes into `folder`, whose manifest.json says who made the rows:
+///   index.html   the order of the backends, the held part apart; each family; how far the order
+///                holds; what each backend fails on; the families
+///   table.csv    a line for each part (open, held), family, tolerance, start and backend
+/// Throws Error.
+void write_ranking(const std::filesystem::path& folder, std::span<const CompareRow> rows);
+
+}  // namespace ballast

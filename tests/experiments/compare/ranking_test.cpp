@@ -1,0 +1,103 @@
+#include "experiments/compare/ranking.hpp"
+
+#include <cmath>
+
+#include "experiments/compare/compare_page.hpp"
+#include "platform/random.hpp"
+#include "tests/catch.hpp"
+#include "tests/experiments/compare/hand_made_row.hpp"
+
+using namespace ballast;
+
+namespace {
+
+/// A case of run `run` on which the backends a, b, ... take so many seconds; 0: not solved.
+void add_case(std::vector<CompareRow>& rows, const std::string& name,
+              const std::vector<double>& seconds) {
+  for (size_t s = 0; s < seconds.size(); ++s) {
+    const std::string solver(1, static_cast<char>('a' + s));
+    rows.push_back(hand_made_row(name.c_str(), solver.c_str(), std::max(seconds[s], 1.0),
+                                 seconds[s] > 0.0 ? Verdict::solved : Verdict::unsolved));
+  }
+}
+
+CaseGroup all_of(const TriedCases& tried) {
+  CaseGroup group{&tried};
+  for (size_t c = 0; c < tried.cases.size(); ++c)
+    group.members.push_back(static_cast<Eigen::Index>(c));
+  return group;
+}
+
+}  // namespace
+
+TEST_CASE("Cases that every backend tried are compared, unsolved ones with the limit") {
+  std::vector<CompareRow> rows;
+  add_case(rows, "x", {1.0, 2.0});
+  add_case(rows, "y", {0.0, 2.0});
+  add_case(rows, "z", {1.0});                                        // b did not try it
+  rows.push_back(hand_made_row("x", "a", 3.0, Verdict::solved, 1));  // median 2
+  rows.push_back(hand_made_row("w", "", 0.0, Verdict::unreadable));
+  rows.push_back(hand_made_row("x", "a", 1.0, Verdict::solved));
+  rows.back().tolerance = 1e-8;
+  const std::vector<TriedCases> tried = tried_cases(rows);
+  REQUIRE(tried.size() == 2);
+  CHECK(tried[0].tolerance == 1e-4);
+  CHECK(tried[1].solvers == std::vector<std::string>{"a"});
+  REQUIRE(tried[0].cases.size() == 2);
+  CHECK(tried[0].cases[1]->case_name == "y");
+  CHECK(tried[0].log_seconds(0, 0) == Approx(std::log(2.0 + summary_shift)));
+  CHECK(tried[0].log_seconds(1, 0) == Approx(std::log(60.0 + summary_shift)));
+}
+
+TEST_CASE("Ranks are by mean time, and their range is where they are sure") {
+  std::vector<CompareRow> rows;
+  Random random(7);
+  // a is ten times faster than b and c, which differ from run to run; d and e never solve.
+  for (int run = 0; run < 12; ++run)
+    for (int step = 0; step < 3; ++step)
+      add_case(rows, "run" + std::to_string(run) + "-step_" + std::to_string(step),
+               {0.1, run % 2 ? 1.5 : 2.5, run % 2 ? 2.5 : 1.5, 0.0, 0.0});
+  const std::vector<TriedCases> tried = tried_cases(rows);
+  const std::vector<Estimate> ranks = ranks_of(all_of(tried[0]));
+  REQUIRE(ranks.size() == 5);
+  CHECK(ranks[0].value == 1.0);
+  CHECK(ranks[0].high == 1.0);
+  CHECK(ranks[1].low == 2.0);
+  CHECK(ranks[1].high == 3.0);
+  CHECK(ranks[3].value == 4.5);
+  CHECK(ranks[4].low == 4.5);
+  // The same draws every time; none where there are too few runs.
+  CHECK(ranks_of(all_of(tried[0]))[2].low == ranks[2].low);
+  CaseGroup few = all_of(tried[0]);
+  few.members.resize(4);  // two runs
+  CHECK(ranks_of(few)[0].value == 1.0);
+  CHECK(std::isnan(ranks_of(few)[0].low));
+  few.members.clear();
+  CHECK(std::isnan(ranks_of(few)[0].value));
+}
+
+TEST_CASE("Kendall's tau of the same, the opposite and a nearly equal order") {
+  std::vector<CompareRow> rows, turned, swapped;
+  for (int run = 0; run < 8; ++run) {
+    const std::string name = "run" + std::to_string(run);
+    add_case(rows, name, {1.0, 2.0, 3.0, 4.0});
+    add_case(turned, name, {4.0, 3.0, 2.0, 1.0});
+    add_case(swapped, name, {2.0, 1.0, 3.0, 4.0, 0.5});  // e has no counterpart
+  }
+  const auto tried = tried_cases(rows), against = tried_cases(turned), near = tried_cases(swapped);
+  const CaseGroup all = all_of(tried[0]);
+  CHECK(agreement(all, all).value == Approx(1.0));
+  CHECK(agreement(all, all_of(against[0])).value == Approx(-1.0));
+  const Estimate tau = agreement(all, all_of(near[0]));
+  CHECK(tau.value == Approx(4.0 / 6.0));  // one pair of six is the other way round
+  CHECK(tau.low == Approx(4.0 / 6.0));
+  CHECK(std::isnan(agreement(all, {&tried[0]}).value));
+}
+
+TEST_CASE("Cases of a run are alike, and a phase is no family") {
+  CHECK(run_of("shaken/25-1-step_0000050") == "shaken/25-1-");
+  CHECK(run_of("pile-c10-s1.hdf5") == "pile-c10-s1.hdf5");
+  CompareRow row;
+  row.family = "shaken, active";
+  CHECK(world_of(row) == "shaken");
+}
