@@ -121,15 +121,12 @@ class Collection {
                    file = options_.folder / (apart ? "held" : "problems") / place,
                    other = options_.folder / (apart ? "problems" : "held") / place;
     create_folder(file.parent_path());
-    // Where the part was kept otherwise before, it moves with its reference.
-    for (const auto& [from, to] :
-         {std::pair(other, file), {reference_of(other), reference_of(file)}})
-      if (is_there(from)) fs::rename(from, to);
+    fs::remove(other);  // where the part was kept otherwise before
     if (const std::string bytes = read_whole_file(source);
         !is_there(file) || read_whole_file(file) != bytes)
       write_whole_file(file, bytes);
-    note(fs::relative(file, options_.folder).string(), family, held, source, loaded);
-    if (options_.reference_seconds > 0.0) refer(file, loaded);
+    note(place.string(), family, held, source, loaded);
+    if (options_.reference_seconds > 0.0) refer(place.string(), file, loaded);
   }
 
   /// A line of the manifest.
@@ -157,16 +154,17 @@ class Collection {
 
   /// Finds the reference where none is there that is exact or had as much time, and notes it. What
   /// an interrupt left is no result.
-  void refer(const fs::path& file, const LoadedCase& loaded) {
+  void refer(const std::string& name, const fs::path& file, const LoadedCase& loaded) {
     const fs::path answer = reference_of(file);
     const std::string budget = "reference_seconds";
-    const auto number = [&](const std::string& name) {
-      return Hdf5Reader(answer).read_doubles("/ballast_answer/" + name).at(0);
+    const auto number = [&](const std::string& entry) {
+      return Hdf5Reader(answer).read_doubles("/ballast_answer/" + entry).at(0);
     };
     if (!is_there(answer) ||
         (number("exact") == 0.0 && number(budget) < options_.reference_seconds)) {
       const Reference found = find_reference(loaded, options_.reference_seconds);
       if (InterruptGuard::requested()) return;
+      create_folder(answer.parent_path());
       write_solution(answer, loaded.problem,
                      {found.impulses,
                       {{"error", found.error},
@@ -175,8 +173,8 @@ class Collection {
                       {{"backend", found.solver}}});
     }
     references_.add_row(std::vector<std::string>{
-        fs::relative(file, options_.folder).string(), printed("%.0f", number("exact")),
-        printed("%.3g", number("error")), Hdf5Reader(answer).read_text("/ballast_answer/backend")});
+        name, printed("%.0f", number("exact")), printed("%.3g", number("error")),
+        Hdf5Reader(answer).read_text("/ballast_answer/backend")});
   }
 
   const CollectionOptions& options_;

@@ -1,11 +1,11 @@
 #pragma once
 // A collection of problems that everybody can make: the same files on every machine, a manifest of
-// what is in each, and a reference solution beside each where one is found.
+// what is in each, and a reference solution of each where one is found.
 //
 //   collection.toml                     the list that it was made from
 //   problems/<family>/<name>.hdf5       FCLIB, with a group /ballast where a run met the problem
-//   problems/<family>/<name>.exact      the reference (reference_of); depends on the time it had
 //   held/<family>/...                   the held part, where it is kept apart
+//   references/<family>/<name>.exact    the reference (reference_of); depends on the time it had
 //   manifest.csv                        a line for each problem: the same on every machine
 //   references.csv                      a line for each reference
 //   runs/<name>, packings/              what the problems were taken from; may be removed

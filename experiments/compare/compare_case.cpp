@@ -93,7 +93,7 @@ LoadedCase load_captured(const fs::path& file) {
   return loaded;
 }
 
-/// With the answer that is kept beside the file, if one is.
+/// With the answer that is kept of the file, if one is.
 LoadedCase with_reference(LoadedCase loaded, const fs::path& file) {
   if (const fs::path answer = reference_of(file); is_there(answer))
     loaded.exact = read_solution(answer, loaded.problem);
@@ -263,7 +263,11 @@ void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
 
 }  // namespace
 
-fs::path reference_of(fs::path problem_file) { return problem_file.replace_extension(".exact"); }
+fs::path reference_of(const fs::path& problem_file) {
+  const fs::path file = fs::absolute(problem_file).lexically_normal(), family = file.parent_path();
+  return family.parent_path().parent_path() / "references" / family.filename() /
+         file.filename().replace_extension(".exact");
+}
 
 std::string family_of_file(const std::string& file_name) {
   std::string family = file_name.substr(0, file_name.find('-'));

@@ -62,9 +62,9 @@ LoadedCase load_case(FrictionProblem problem, double velocity_scale = 0.0,
 /// CaseFacts::content: all bits of the problem, its start and its scale.
 std::string content_of(const FrictionProblem& problem, const Impulses& start, double scale);
 
-/// Where the answer to a problem's file is kept from which distances are measured: beside it,
-/// "step_0000010.exact", an HDF5 file with /solution/r.
-std::filesystem::path reference_of(std::filesystem::path problem_file);
+/// Where the answer to a problem's file is kept from which distances are measured, an HDF5 file
+/// with /solution/r: collection/problems/shaken/a.hdf5 -> collection/references/shaken/a.exact.
+std::filesystem::path reference_of(const std::filesystem::path& problem_file);
 
 /// "Capsules-i101-404.dat" -> "Capsules", "Rover1039.dat" -> "Rover".
 std::string family_of_file(const std::string& file_name);

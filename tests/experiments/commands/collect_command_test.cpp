@@ -1,0 +1,132 @@
+// `ballast compare collect` and `ballast compare ranking` as they are called, from a list to a
+// page; and that others read what they leave.
+
+#include <filesystem>
+
+#include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace ballast;
+namespace fs = std::filesystem;
+using Catch::Contains;
+
+namespace {
+
+const char* const two_worlds =
+    "[[family]]\nname = \"cube\"\nscene = \"sliding_cube\"\nset = [\"scene.duration=0.02\"]\n"
+    "steps = \"every=10,steps=1\"\nvary = [[\"wall.0.friction=0.1\", \"wall.0.friction=0.9\"]]\n"
+    "[[family]]\nname = \"pile\"\nmade = [\"pile:contacts=8,count=4\"]\n"
+    "[[family]]\nname = \"pile\"\nmade = [\"pile:contacts=9\"]\npart = \"large\"\n";
+
+/// Compiles a program of C; false: what it includes is not there.
+bool compiled(const std::string& source, const fs::path& program) {
+  const std::string words =
+      "F=\"$(pkg-config --cflags hdf5) -I/usr/include/siconos -I/usr/include/siconos/numerics\"; "
+      "cc -E $F \"$1\" > /dev/null 2>&1 || exit 77; L=; "
+      "if grep -q fclib.h \"$1\"; then L=-lfclib; fi; "
+      "cc $F \"$1\" -o \"$2\" $(pkg-config --libs hdf5) -lhdf5_hl $L -lsiconos_numerics -lm";
+  const ProgramResult result = run_program(
+      "/bin/sh", {"-c", words, "sh", std::string(BALLAST_SOURCE_FOLDER) + source, program.string()},
+      120.0);
+  if (result.status == 77) return false;
+  INFO(result.errors);
+  REQUIRE(result.status == 0);
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("a list becomes a collection, a comparison and a ranking") {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("list.toml", two_worlds).string(),
+                    collection = (folder.path() / "collection").string(),
+                    compared = (folder.path() / "compared").string(),
+                    ranking = (folder.path() / "ranking").string();
+  const ProgramResult made =
+      ballast_program({"compare", "collect", "--list", file, "--output", collection});
+  INFO(made.errors);
+  REQUIRE(made.status == 0);
+  CHECK_THAT(made.output, Contains("1/3  cube-0.1") && Contains("3/3  pile-made-1") &&
+                              Contains("made: " + collection + "/manifest.csv"));
+  CHECK(read_whole_file(collection + "/collection.toml") == two_worlds);
+  REQUIRE(ballast_program({"compare", collection + "/problems", "--solvers", "pgs,auto",
+                           "--exact-seconds", "0", "--memory", "0", "--quiet", "--no-report",
+                           "--output", compared})
+              .status == 0);
+  // Distances are measured from the references of the collection.
+  CsvReader rows(compared + "/results.csv");
+  REQUIRE(rows.next());
+  const std::vector<std::string> head(rows.cells().begin(), rows.cells().end());
+  const auto distance = std::ranges::find(head, "contact_velocity_distance") - head.begin();
+  REQUIRE(distance < static_cast<long>(head.size()));
+  while (rows.next())
+    CHECK(rows.number(static_cast<size_t>(distance), "contact_velocity_distance") < 1e-2);
+  const ProgramResult ranked =
+      ballast_program({"compare", "ranking", compared, "--output", ranking});
+  INFO(ranked.errors);
+  REQUIRE(ranked.status == 0);
+  CHECK_THAT(ranked.output, Contains(" rows: " + ranking + "/index.html"));
+  CHECK_THAT(read_whole_file(ranking + "/table.csv"),
+             Contains("open,cube,") && Contains(",1e-08,cold,auto,coulomb,"));
+}
+
+TEST_CASE("what is wrong with the words of a collection is said in one line") {
+  const TemporaryFolder folder;
+  const std::string output = (folder.path() / "out").string(),
+                    bad = folder.write("bad.toml", "[[family]]\nname = \"x\"\n").string();
+  check_failure(ballast_program({"compare", "collect", "--part", "huge", "--output", output}),
+                ExitCode::usage, {"--part huge: expected small or all"});
+  check_failure(ballast_program({"compare", "collect", "--list", bad, "--output", output}),
+                ExitCode::failure, {bad, "either a scene or `made`"});
+  check_failure(ballast_program({"compare", "ranking", output, "--output", output + "2"}),
+                ExitCode::failure, {"no folder of a comparison"});
+  const fs::path theirs = folder.path() / "theirs";
+  create_folder(theirs);
+  write_whole_file(theirs / "thesis.tex", "the user's own");
+  check_failure(ballast_program({"compare", "collect", "--output", theirs.string()}),
+                ExitCode::failure, {theirs.string(), "holds files"});
+}
+
+TEST_CASE("Debian's FCLIB reads a collection, and Siconos' own measure agrees") {
+  const TemporaryFolder folder;
+  const fs::path reader = folder.path() / "reader";
+  if (!compiled("/tests/experiments/commands/read_by_siconos.c", reader)) {
+    WARN("skipped: libfclib-dev or libsiconos-numerics-dev is not there");
+    return;
+  }
+  const std::string collection = (folder.path() / "collection").string();
+  REQUIRE(ballast_program({"compare", "collect", "--list",
+                           folder.write("list.toml", two_worlds).string(), "--output", collection})
+              .status == 0);
+  int read = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(collection + "/problems")) {
+    if (entry.is_directory()) continue;
+    const fs::path family = entry.path().parent_path().filename();
+    const fs::path reference =
+        fs::path(collection) / "references" / family / (entry.path().stem().string() + ".exact");
+    const ProgramResult said =
+        run_program(reader.string(), {entry.path().string(), reference.string()}, 60.0);
+    INFO(entry.path() << ": " << said.output << said.errors);
+    CHECK(said.status == 0);
+    ++read;
+  }
+  CHECK(read == 8);
+}
+
+TEST_CASE("the example in C solves with Siconos, and the judge agrees") {
+  const TemporaryFolder folder;
+  const fs::path program = folder.path() / "siconos_nsgs";
+  if (!compiled("/examples/external/siconos_nsgs.c", program)) {
+    WARN("skipped: libsiconos-numerics-dev is not there");
+    return;
+  }
+  const ProgramResult result = ballast_program(
+      {"compare", "known:contacts=10,bodies=6", "--solvers", "none", "--tolerances", "1e-4",
+       "--measure", "fclib", "--memory", "0", "--no-report", "--output",
+       (folder.path() / "out").string(), "--external", "c_nsgs=" + program.string()});
+  INFO(result.output << result.errors);
+  CHECK(result.status == 0);
+  CHECK_THAT(result.output, Contains("c_nsgs") && Contains(" solved "));
+}
