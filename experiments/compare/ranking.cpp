@@ -59,9 +59,7 @@ bool draw(const CaseGroup* const (&groups)[count], const Take& take) {
   size_t fewest = SIZE_MAX;
   for (size_t g = 0; g < count; ++g) {
     means[g] = means_of(*groups[g], nullptr);
-    std::set<std::string> own;
-    for (const Eigen::Index c : groups[g]->members)
-      own.insert(run_of(groups[g]->tried->cases[static_cast<size_t>(c)]->case_name));
+    std::set<std::string> own = runs_of(*groups[g]);
     fewest = std::min(fewest, own.size());
     names.merge(own);
   }
@@ -97,6 +95,13 @@ std::string world_of(const CompareRow& row) { return row.family.substr(0, row.fa
 
 std::string run_of(const std::string& case_name) {
   return case_name.substr(0, case_name.rfind("step_"));
+}
+
+std::set<std::string> runs_of(const CaseGroup& group) {
+  std::set<std::string> runs;
+  for (const Eigen::Index c : group.members)
+    runs.insert(run_of(group.tried->cases[static_cast<size_t>(c)]->case_name));
+  return runs;
 }
 
 std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows) {

@@ -2,6 +2,7 @@
 // The order of backends by time over many problems, and how sure it is: over families, sizes and
 // tolerances (Kendall's tau), and over other problems of the same kind (bootstrap).
 
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +40,7 @@ std::string world_of(const CompareRow& row);
 /// What cases of one run have in common: "shaken/25-1-step_0000050" -> "shaken/25-1-". They are
 /// alike, so the bootstrap draws runs, not cases.
 std::string run_of(const std::string& case_name);
+std::set<std::string> runs_of(const CaseGroup& group);
 
 /// A number, and 95 % of the bootstrap's: NaN with fewer than `fewest_runs` runs.
 struct Estimate {

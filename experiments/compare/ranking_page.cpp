@@ -18,78 +18,73 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* all_families = "all";
+const std::string everything = "all";
 
-/// Tolerance from loose to tight, and start.
-using Setting = std::pair<double, StartKind>;
-using Summaries = std::map<Setting, std::map<std::string, BackendSummary>>;
+bool is_open(const CompareRow& row) { return !is_held(row.facts.content); }
 
-Setting setting_of(const TriedCases& tried) { return {-tried.tolerance, tried.start}; }
+/// "11 to 100 contacts"
+std::string size_of(const CompareRow& row) {
+  int most = 10;
+  while (most < row.facts.contacts) most *= 10;
+  return printed("%d to %d contacts", most == 10 ? 1 : most / 10 + 1, most);
+}
 
-double share_of(const BackendSummary& s) {
-  return static_cast<double>(s.solved) / (s.solved + s.unsolved);
+bool is_of(const CompareRow& row, const std::string& kind) {
+  return kind == everything || world_of(row) == kind || size_of(row) == kind;
+}
+
+page::Text count(size_t number) { return page::exact(static_cast<double>(number)); }
+page::Text solved(const BackendSummary& s) {
+  return page::quantity(100.0 * s.solved / (s.solved + s.unsolved), "%");
 }
 
 /// What became of the cases that are not solved, most often first.
 std::string verdicts_of(const BackendSummary& s) {
   const int named = s.timeouts + s.crashes + s.unsupported + s.no_solutions + s.denied;
-  std::vector<std::pair<int, const char*>> counts = {
+  std::pair<int, const char*> counts[] = {
       {s.timeouts, "out of time"},       {s.crashes, "crashed"},
       {s.unsupported, "not taken"},      {s.no_solutions, "said to have no solution"},
       {s.denied, "denied by the judge"}, {s.unsolved - named, "gave up"}};
-  std::ranges::stable_sort(counts, std::ranges::greater(), &std::pair<int, const char*>::first);
+  std::ranges::sort(counts, std::ranges::greater());
   std::string text;
-  for (const auto& [count, what] : counts)
-    if (count > 0) add_to_list(text, std::to_string(count) + ' ' + what);
+  for (const auto& [number, what] : counts)
+    if (number > 0) add_to_list(text, std::to_string(number) + ' ' + what);
   return text;
 }
 
-/// Problems of one kind that are looked at together.
-struct Kind {
-  std::string what;
-  std::function<bool(const CompareRow&)> has;
-};
-
-const Kind sizes[] = {
-    {"up to 30 contacts", [](const CompareRow& r) { return r.facts.contacts <= 30; }},
-    {"31 to 300 contacts",
-     [](const CompareRow& r) { return r.facts.contacts > 30 && r.facts.contacts <= 300; }},
-    {"301 to 3000 contacts",
-     [](const CompareRow& r) { return r.facts.contacts > 300 && r.facts.contacts <= 3000; }},
-    {"more contacts", [](const CompareRow& r) { return r.facts.contacts > 3000; }}};
-
-CaseGroup group_of(const TriedCases& tried, const std::function<bool(const CompareRow&)>& has) {
-  CaseGroup group{&tried};
+/// Open cases of a kind, or the held ones.
+CaseGroup group_of(const TriedCases& tried, const std::string& kind, bool held = false) {
+  CaseGroup group{&tried, {}};
   for (size_t c = 0; c < tried.cases.size(); ++c)
-    if (has(*tried.cases[c])) group.members.push_back(static_cast<Eigen::Index>(c));
+    if (is_open(*tried.cases[c]) != held && is_of(*tried.cases[c], kind))
+      group.members.push_back(static_cast<Eigen::Index>(c));
   return group;
 }
 
-bool is_open(const CompareRow& row) { return !is_held(row.facts.content); }
+page::Values words_for(const TriedCases& tried) {
+  return {{"tolerance", page::exact(tried.tolerance)}, {"start", name_of(tried.start)}};
+}
 
 class Ranking {
  public:
   explicit Ranking(std::span<const CompareRow> rows) {
+    std::set<std::string> families;
+    std::map<int, std::string> sizes;
     for (const CompareRow& row : rows) {
       if (row.verdict == Verdict::unreadable) continue;
       rows_.push_back(row);
-      rows_.back().history.clear();  // rows are copied by family
-      families_.insert(world_of(row));
+      rows_.back().history.clear();  // rows are copied by kind
+      families.insert(world_of(row));
+      sizes[row.facts.contacts] = size_of(row);
     }
+    kinds_.assign(families.begin(), families.end());
+    for (const auto& [contacts, size] : sizes)
+      if (size != kinds_.back()) kinds_.push_back(size);
     for (const bool held : {false, true}) {
-      sum_up(held, all_families);
-      for (const std::string& family : families_) sum_up(held, family);
+      sum_up(held, everything);
+      for (const std::string& kind : kinds_) sum_up(held, kind);
     }
     tried_ = tried_cases(rows_);
-    for (const TriedCases& tried : tried_) {
-      ranks_.push_back(ranks_of(group_of(tried, is_open)));
-      std::vector<size_t>& order = orders_.emplace_back(tried.solvers.size());
-      for (size_t s = 0; s < order.size(); ++s) order[s] = s;
-      std::ranges::stable_sort(order, {}, [&](size_t s) {
-        const double rank = ranks_.back()[s].value;
-        return std::isnan(rank) ? 1.0 - share(false, all_families, tried, s) : rank;
-      });
-    }
   }
 
   page::Page page() const {
@@ -98,27 +93,18 @@ class Ranking {
       cases.insert(row.case_name);
       solvers.insert(row.solver);
     }
-    page::Page page{
-        .title = "Solvers of frictional contact: who solves what, and how fast",
-        .lede = {page::words("ranking.lede", {{"solvers", page::exact(count(solvers))},
-                                              {"problems", page::exact(count(cases))},
-                                              {"families", page::exact(count(families_))}})}};
-    const page::Text limit = page::quantity(limit_of(rows_), "s");
-    page::Section order{"order", "The order"}, each{"by-family", "Family by family"},
+    page::Page page{.title = "Solvers of frictional contact: who solves what, and how fast",
+                    .lede = {page::words("ranking.lede", {{"solvers", count(solvers.size())},
+                                                          {"problems", count(cases.size())}})}};
+    page::Section order{"order", "The order"}, each{"by-family", "Family by family, size by size"},
         failures{"failures", "What each backend fails on"};
     order.add(
-        page::words("ranking.order",
-                    {{"limit", limit}, {"shift", page::quantity(1e3 * summary_shift, "ms", 1)}}));
-    each.add(page::words("ranking.by-family"));
+        page::words("ranking.order", {{"limit", page::quantity(limit_of(rows_), "s")},
+                                      {"shift", page::quantity(1e3 * summary_shift, "ms", 1)}}));
     failures.add(page::words("ranking.failures"));
-    for (size_t t = 0; t < tried_.size(); ++t) {
-      order.add(order_table(t));
-      each.add(family_table(t, "ranking.solved", &Ranking::solved_cell));
-      each.add(family_table(t, "ranking.ratio", &Ranking::ratio_cell));
-      failures.add(failure_table(t));
-    }
+    for (const TriedCases& tried : tried_) add_tables(tried, order, each, failures);
     page.add(order);
-    page.add({"families", "The problems", {page::words("ranking.families"), problems_table()}});
+    page.add({"families", "The problems", {page::words("ranking.families"), problems()}});
     page.add(each);
     page.add(
         {"stability", "Does the order hold?", {page::words("ranking.stability"), stability()}});
@@ -127,221 +113,181 @@ class Ranking {
     return page;
   }
 
-  /// A line for each part, family, setting and backend.
+  /// A line for each part, kind, setting and backend.
   std::string csv() const {
     CsvWriter csv;
-    csv.add_row(std::vector<std::string>{"part", "family", "tolerance", "start", "solver", "law",
+    csv.add_row(std::vector<std::string>{"part", "kind", "tolerance", "start", "solver", "law",
                                          "cases", "solved", "share", "mean_seconds", "over_fastest",
                                          "timeouts", "crashes", "not_taken", "no_solution",
                                          "denied"});
-    for (const auto& [place, summaries] : summaries_)
-      for (const auto& [setting, by_solver] : summaries)
-        for (const auto& [solver, s] : by_solver) {
-          for (const std::string& text :
-               {std::string(place.first ? "held" : "open"), place.second,
-                printed("%g", -setting.first), std::string(name_of(setting.second)), solver, s.law})
-            csv.add(text);
-          csv.add(long{s.solved + s.unsolved});
-          csv.add(long{s.solved});
-          for (const double value : {share_of(s), s.mean_seconds, s.mean_ratio}) csv.add(value, 4);
-          for (const int number : {s.timeouts, s.crashes, s.unsupported, s.no_solutions, s.denied})
-            csv.add(long{number});
-          csv.end_row();
-        }
+    for (const auto& [place, s] : summaries_) {
+      const auto& [held, kind, tolerance, start, solver] = place;
+      for (const std::string& text :
+           {std::string(held ? "held" : "open"), kind, printed("%g", tolerance),
+            std::string(name_of(start)), solver, s.law})
+        csv.add(text);
+      for (const int number : {s.solved + s.unsolved, s.solved}) csv.add(long{number});
+      for (const double value :
+           {1.0 * s.solved / (s.solved + s.unsolved), s.mean_seconds, s.mean_ratio})
+        csv.add(value, 4);
+      for (const int number : {s.timeouts, s.crashes, s.unsupported, s.no_solutions, s.denied})
+        csv.add(long{number});
+      csv.end_row();
+    }
     return csv.take();
   }
 
  private:
-  static double count(const std::set<std::string>& of) { return static_cast<double>(of.size()); }
-
-  void sum_up(bool held, const std::string& family) {
+  void sum_up(bool held, const std::string& kind) {
     std::vector<CompareRow> some;
     for (const CompareRow& row : rows_)
-      if (is_held(row.facts.content) == held && (family == all_families || world_of(row) == family))
-        some.push_back(row);
+      if (is_open(row) != held && is_of(row, kind)) some.push_back(row);
     for (const CompareTable& table : compare_tables(some))
-      for (const BackendSummary& backend : table.backends)
-        summaries_[{held, family}][{-table.tolerance, table.start}][backend.solver] = backend;
+      for (const BackendSummary& s : table.backends)
+        summaries_[{held, kind, table.tolerance, table.start, s.solver}] = s;
   }
 
-  /// Null: it tried none of them.
-  const BackendSummary* find(bool held, const std::string& family, const TriedCases& tried,
-                             size_t s) const {
-    const auto place = summaries_.find({held, family});
-    if (place == summaries_.end()) return nullptr;
-    const auto setting = place->second.find(setting_of(tried));
-    if (setting == place->second.end()) return nullptr;
-    const auto found = setting->second.find(tried.solvers[s]);
-    return found == setting->second.end() ? nullptr : &found->second;
+  /// Of nothing where it tried none.
+  BackendSummary summary(bool held, const std::string& kind, const TriedCases& tried,
+                         size_t s) const {
+    const auto found =
+        summaries_.find({held, kind, tried.tolerance, tried.start, tried.solvers[s]});
+    if (found != summaries_.end()) return found->second;
+    BackendSummary none;
+    none.mean_seconds = none.mean_ratio = not_known;
+    return none;
   }
 
-  double share(bool held, const std::string& family, const TriedCases& tried, size_t s) const {
-    const BackendSummary* found = find(held, family, tried, s);
-    return found ? share_of(*found) : not_known;
-  }
-
-  page::Text solved_cell(const std::string& family, const TriedCases& tried, size_t s) const {
-    return page::quantity(100.0 * share(false, family, tried, s), "%");
-  }
-  page::Text ratio_cell(const std::string& family, const TriedCases& tried, size_t s) const {
-    const BackendSummary* found = find(false, family, tried, s);
-    return page::number(found ? found->mean_ratio : not_known);
-  }
-
-  static page::Values words_for(const TriedCases& tried) {
-    return {{"tolerance", page::exact(tried.tolerance)}, {"start", name_of(tried.start)}};
-  }
-
-  page::Table order_table(size_t t) const {
-    const TriedCases& tried = tried_[t];
-    page::Table table = page::words_table("ranking.order-table", words_for(tried));
-    table.is_number = {true, true, false, false, true, true, true, true, true};
-    for (const size_t s : orders_[t]) {
-      const Estimate& rank = ranks_[t][s];
-      const BackendSummary *open = find(false, all_families, tried, s),
-                           *held = find(true, all_families, tried, s);
-      const page::Text none{"–", page::note};
-      table.rows.push_back(
-          {page::exact(rank.value),
-           std::isnan(rank.low) ? none : page::exact(rank.low) + "–" + page::exact(rank.high),
-           tried.solvers[s],
-           open   ? open->law
-           : held ? held->law
-                  : "",
-           solved_cell(all_families, tried, s),
-           page::quantity(100.0 * share(true, all_families, tried, s), "%"),
-           open ? page::quantity(1e3 * open->mean_seconds, "ms") : none,
-           ratio_cell(all_families, tried, s), held ? page::number(held->mean_ratio) : none});
+  /// All tables of one start and tolerance, with the backends in their order.
+  void add_tables(const TriedCases& tried, page::Section& order, page::Section& each,
+                  page::Section& failures) const {
+    const std::vector<Estimate> ranks = ranks_of(group_of(tried, everything));
+    std::vector<std::pair<double, size_t>> by_rank;
+    for (size_t s = 0; s < ranks.size(); ++s)
+      by_rank.emplace_back(std::isnan(ranks[s].value) ? HUGE_VAL : ranks[s].value, s);
+    std::ranges::sort(by_rank);
+    page::Table all = page::words_table("ranking.order-table", words_for(tried)),
+                failed = page::words_table("ranking.failure-table", words_for(tried)), shares,
+                ratios;
+    all.is_number = {true, true, false, false, true, true, true, true, true};
+    failed.is_number = {false, true, false, false};
+    shares.caption = page::words("ranking.solved", words_for(tried));
+    ratios.caption = page::words("ranking.ratio", words_for(tried));
+    for (page::Table* table : {&shares, &ratios}) {
+      table->head = {"backend"};
+      table->head.insert(table->head.end(), kinds_.begin(), kinds_.end());
+      table->is_number.assign(kinds_.size() + 1, true);
+      table->is_number[0] = false;
     }
-    return table;
-  }
-
-  /// Backends by families.
-  page::Table family_table(size_t t, const char* caption,
-                           page::Text (Ranking::*cell)(const std::string&, const TriedCases&,
-                                                       size_t) const) const {
-    page::Table table{.caption = page::words(caption, words_for(tried_[t])),
-                      .head = {"backend"},
-                      .is_number = {false}};
-    for (const std::string& family : families_) {
-      table.head.push_back(family);
-      table.is_number.push_back(true);
-    }
-    for (const size_t s : orders_[t]) {
-      std::vector<page::Text>& line = table.rows.emplace_back();
-      line.push_back(tried_[t].solvers[s]);
-      for (const std::string& family : families_)
-        line.push_back((this->*cell)(family, tried_[t], s));
-    }
-    return table;
-  }
-
-  /// The worst three families of each backend.
-  page::Table failure_table(size_t t) const {
-    page::Table table = page::words_table("ranking.failure-table", words_for(tried_[t]));
-    table.is_number = {false, true, false, false};
-    for (const size_t s : orders_[t]) {
-      const BackendSummary* all = find(false, all_families, tried_[t], s);
-      if (!all || all->unsolved == 0) continue;
-      std::vector<std::tuple<double, std::string, const BackendSummary*>> worst;
-      for (const std::string& family : families_)
-        if (const BackendSummary* own = find(false, family, tried_[t], s); own && own->unsolved > 0)
-          worst.emplace_back(share_of(*own), family, own);
-      std::ranges::sort(worst);
-      std::string where;
-      for (size_t k = 0; k < std::min<size_t>(3, worst.size()); ++k) {
-        const auto& [solved, family, own] = worst[k];
-        add_to_list(where, printed("%s (%d of %d)", family.c_str(), own->unsolved,
-                                   own->solved + own->unsolved));
+    for (const auto& [rank, s] : by_rank) {
+      const std::string& name = tried.solvers[s];
+      const BackendSummary open = summary(false, everything, tried, s),
+                           held = summary(true, everything, tried, s);
+      const page::Text range = page::exact(ranks[s].low) + "–" + page::exact(ranks[s].high);
+      all.rows.push_back({page::exact(ranks[s].value), std::isnan(ranks[s].low) ? "–" : range, name,
+                          open.law, solved(open), solved(held),
+                          page::quantity(1e3 * open.mean_seconds, "ms"),
+                          page::number(open.mean_ratio), page::number(held.mean_ratio)});
+      shares.rows.push_back({name});
+      ratios.rows.push_back({name});
+      for (const std::string& kind : kinds_) {
+        const BackendSummary some = summary(false, kind, tried, s);
+        shares.rows.back().push_back(solved(some));
+        ratios.rows.back().push_back(page::number(some.mean_ratio));
       }
-      table.rows.push_back(
-          {tried_[t].solvers[s], page::exact(all->unsolved), verdicts_of(*all), where});
+      if (open.unsolved > 0)
+        failed.rows.push_back(
+            {name, page::exact(open.unsolved), verdicts_of(open), worst(tried, s)});
     }
-    return table;
+    order.add(all);
+    for (const page::Table& table : {shares, ratios}) each.add(table);
+    failures.add(failed);
   }
 
-  page::Table problems_table() const {
+  /// The three kinds of which a backend leaves the largest share unsolved.
+  std::string worst(const TriedCases& tried, size_t s) const {
+    std::vector<std::pair<double, std::string>> places;
+    for (const std::string& kind : kinds_)
+      if (const BackendSummary some = summary(false, kind, tried, s); some.unsolved > 0)
+        places.emplace_back(
+            1.0 * some.solved / (some.solved + some.unsolved),
+            printed("%s (%d of %d)", kind.c_str(), some.unsolved, some.solved + some.unsolved));
+    std::ranges::sort(places);
+    std::string text;
+    for (size_t k = 0; k < std::min<size_t>(3, places.size()); ++k)
+      add_to_list(text, places[k].second);
+    return text;
+  }
+
+  page::Table problems() const {
     page::Table table = page::words_table("ranking.problem-table");
     table.is_number = {false, true, true, true, true, true, true, true};
-    for (const std::string& family : families_) {
-      std::map<std::string, const CompareRow*> cases;
-      std::set<std::string> held, solved;
-      double tightest = HUGE_VAL;
-      for (const CompareRow& row : rows_) tightest = std::min(tightest, row.tolerance);
+    const double tightest = std::ranges::min(rows_, {}, &CompareRow::tolerance).tolerance;
+    for (const std::string& kind : kinds_) {
+      std::map<std::string, bool> is_solved;
+      std::vector<double> contacts;
+      double ratio = 0.0;
+      size_t held = 0;
       for (const CompareRow& row : rows_) {
-        if (world_of(row) != family) continue;
-        cases[row.case_name] = &row;
-        if (!is_open(row)) held.insert(row.case_name);
-        if (row.tolerance == tightest && row.verdict == Verdict::solved)
-          solved.insert(row.case_name);
+        if (!is_of(row, kind)) continue;
+        const auto [known, is_new] = is_solved.try_emplace(row.case_name, false);
+        known->second |= row.tolerance == tightest && row.verdict == Verdict::solved;
+        if (!is_new) continue;
+        contacts.push_back(row.facts.contacts);
+        ratio = std::max(ratio, row.facts.mass_ratio);
+        held += !is_open(row);
       }
-      std::vector<double> contacts, ratios;
-      for (const auto& [name, row] : cases) {
-        contacts.push_back(row->facts.contacts);
-        ratios.push_back(row->facts.mass_ratio);
-      }
-      const double all = static_cast<double>(cases.size());
+      const auto number =
+          std::ranges::count_if(is_solved, [](const auto& one) { return one.second; });
       table.rows.push_back(
-          {family, page::exact(all), page::exact(count(held)),
-           page::exact(std::ranges::min(contacts)), page::exact(quantile(contacts, 0.5)),
-           page::exact(std::ranges::max(contacts)), page::number(std::ranges::max(ratios), 2),
-           page::quantity(100.0 * count(solved) / all, "%")});
+          {kind, count(contacts.size()), count(held), page::exact(quantile(contacts, 0.0)),
+           page::exact(quantile(contacts, 0.5)), page::exact(quantile(contacts, 1.0)),
+           page::number(ratio, 2),
+           page::quantity(
+               100.0 * static_cast<double>(number) / static_cast<double>(contacts.size()), "%")});
     }
     return table;
   }
 
-  /// The order of all open problems beside that of some of them, of the held ones, and of other
-  /// settings.
+  /// The order of all open problems beside that of some, of the held ones, and of other settings.
   page::Table stability() const {
     page::Table table = page::words_table("ranking.stability-table");
     table.is_number = {false, false, true, true, true, false};
-    const auto add = [&](const std::string& where, const std::string& what, const CaseGroup& all,
-                         const CaseGroup& some) {
-      if (some.members.empty()) return;
-      std::set<std::string> runs;
-      for (const Eigen::Index c : some.members)
-        runs.insert(run_of(some.tried->cases[static_cast<size_t>(c)]->case_name));
-      const std::vector<Estimate> ranks = ranks_of(some);
-      const auto first = std::ranges::min_element(ranks, {}, &Estimate::value) - ranks.begin();
-      const Estimate tau = agreement(all, some);
-      page::Text value = page::number(tau.value, 2);
-      if (!std::isnan(tau.low)) value += page::Text(" ") + page::interval(tau.low, tau.high);
-      table.rows.push_back({where, what, page::exact(static_cast<double>(some.members.size())),
-                            page::exact(count(runs)), value,
-                            some.tried->solvers[static_cast<size_t>(first)]});
-    };
     for (const TriedCases& tried : tried_) {
-      const std::string where = printed("%g, %s", tried.tolerance, name_of(tried.start));
-      const CaseGroup all = group_of(tried, is_open);
-      const auto open_and = [&](const std::function<bool(const CompareRow&)>& has) {
-        return group_of(tried, [&](const CompareRow& row) { return is_open(row) && has(row); });
+      const auto add = [&](const std::string& what, const CaseGroup& some) {
+        if (some.members.empty()) return;
+        const std::vector<Estimate> ranks = ranks_of(some);
+        const auto first = std::ranges::min_element(ranks, {}, &Estimate::value) - ranks.begin();
+        const Estimate tau = agreement(group_of(tried, everything), some);
+        page::Text value = page::number(tau.value, 2);
+        if (!std::isnan(tau.low)) value += " " + page::interval(tau.low, tau.high);
+        table.rows.push_back({printed("%g, %s", tried.tolerance, name_of(tried.start)), what,
+                              count(some.members.size()), count(runs_of(some).size()), value,
+                              some.tried->solvers[static_cast<size_t>(first)]});
       };
-      add(where, "held problems", all, group_of(tried, [](const auto& r) { return !is_open(r); }));
-      for (const TriedCases& other : tried_)
-        if (setting_of(tried) < setting_of(other))
-          add(where, printed("tolerance %g, %s start", other.tolerance, name_of(other.start)), all,
-              group_of(other, is_open));
-      for (const Kind& size : sizes) add(where, size.what, all, open_and(size.has));
-      for (const std::string& family : families_)
-        add(where, family, all, open_and([&](const auto& r) { return world_of(r) == family; }));
+      add("held problems", group_of(tried, everything, true));
+      for (const TriedCases* other = &tried + 1; other != tried_.data() + tried_.size(); ++other)
+        add(printed("to %g, %s start", other->tolerance, name_of(other->start)),
+            group_of(*other, everything));
+      for (const std::string& kind : kinds_) add(kind, group_of(tried, kind));
     }
     return table;
   }
 
   std::vector<CompareRow> rows_;
-  std::set<std::string> families_;
-  std::map<std::pair<bool, std::string>, Summaries> summaries_;  ///< by held or not, and family
+  std::vector<std::string> kinds_;  ///< families, then sizes
   std::vector<TriedCases> tried_;
-  std::vector<std::vector<Estimate>> ranks_;  ///< of tried_, open problems
-  std::vector<std::vector<size_t>> orders_;   ///< backends of tried_, the first first
+  /// By held or not, kind, tolerance, start and backend.
+  std::map<std::tuple<bool, std::string, double, StartKind, std::string>, BackendSummary>
+      summaries_;
 };
 
 }  // namespace
 
 void write_ranking(const fs::path& folder, std::span<const CompareRow> rows) {
-  const RunData data = read_origin(folder);
   const Ranking ranking(rows);
   write_whole_file(folder / "table.csv", ranking.csv());
+  const RunData data = read_origin(folder);
   write_with_origin(ranking.page(), data, folder / "index.html");
 }
 

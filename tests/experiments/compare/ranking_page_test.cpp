@@ -50,7 +50,7 @@ TEST_CASE("A ranking is a page and a table, with the held part apart") {
     const auto cells = table.cells();
     lines[cells[0] + ' ' + cells[1] + ' ' + cells[4]] = {cells.begin(), cells.end()};
   }
-  CHECK(lines.size() == 1 + 2 * 3 * 2);
+  CHECK(lines.size() == 1 + 2 * 4 * 2);
   CHECK(lines.at("open all fast")[6] == "20");
   CHECK(lines.at("open all fast")[7] == "10");
   CHECK(lines.at("open all fast")[8] == "0.5");
@@ -60,8 +60,8 @@ TEST_CASE("A ranking is a page and a table, with the held part apart") {
   CHECK(lines.at("held steady sure")[10] == "9.911");  // (1 + 1 ms) / (0.1 + 1 ms)
   const std::string page = read_whole_file(folder.path() / "index.html");
   check_page(without_scripts(page));
-  for (const char* words : {"2 backends on 30 problems of 2 families", "&lt;wild&gt;", "10 crashed",
-                            "&lt;wild&gt; (10 of 10)", "held problems"})
+  for (const char* words : {"2 backends on 30 problems.", "&lt;wild&gt;", "10 crashed",
+                            "&lt;wild&gt; (10 of 10)", "held problems", "1 to 10 contacts"})
     CHECK_THAT(page, Catch::Contains(words));
   // The order turns round in the one family: the fast backend is first in the other alone.
   const std::string again = read_whole_file(folder.path() / "table.csv");
