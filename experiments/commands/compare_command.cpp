@@ -38,7 +38,6 @@ ExitCode collect(const CollectOptions& options) {
   if (options.part != "small" && options.part != "all")
     throw UsageError("compare collect: --part " + options.part + ": expected small or all");
   require_own_folder(folder, {"runs", "packings", "problems"});
-  InterruptGuard guard;
   create_folder(folder / "runs");
   // What the collection was made from stays with it.
   const std::filesystem::path kept = folder / "collection.toml";

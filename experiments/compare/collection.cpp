@@ -66,6 +66,7 @@ class Collection {
       if (const ExitCode code = run_scene(wanted, source); code != ExitCode::ok) return code;
     }
     if (!is_folder(problems)) return ExitCode::ok;
+    const InterruptGuard guard;  // only now: run() has one of its own
     const std::string label = wanted.name.substr(wanted.family.size());  // "-25-1"
     const std::vector<FoundProblem> all = find_problems(problems.string());
     if (!wanted.scene.empty() && static_cast<long>(all.size()) != wanted.steps)

@@ -89,6 +89,28 @@ TEST_CASE("what is wrong with the words of a collection is said in one line") {
                 ExitCode::failure, {theirs.string(), "holds files"});
 }
 
+TEST_CASE("a collection that is interrupted says so, and the same command goes on") {
+  const TemporaryFolder folder;
+  const std::string output = (folder.path() / "out").string(),
+                    file = folder.write("list.toml", two_worlds).string();
+  const std::vector<std::string> words = {"compare", "collect", "--list", file, "--output", output};
+  // As soon as the first problem is kept, the references take the rest of the time.
+  const ProgramResult stopped = ballast_in_shell(
+      "\"$@\" --exact-seconds 600 & pid=$!; "
+      "until ls \"" +
+          output +
+          "\"/problems/*/*.hdf5 > /dev/null 2>&1; do sleep 0.01; done; "
+          "kill -TERM $pid; wait $pid",
+      words);
+  // What was too fast to be stopped has been made.
+  if (stopped.status != 0)
+    check_failure(stopped, ExitCode::failure, {"compare collect: stopped; the same command goes"});
+  const ProgramResult again = ballast_program(words);
+  INFO(again.errors);
+  CHECK(again.status == 0);
+  CHECK(fs::exists(output + "/manifest.csv"));
+}
+
 TEST_CASE("Debian's FCLIB reads a collection, and Siconos' own measure agrees") {
   const TemporaryFolder folder;
   const fs::path reader = folder.path() / "reader";
