@@ -6,6 +6,7 @@
 
 #include "platform/error.hpp"
 #include "problems/algebra/known_solutions.hpp"
+#include "problems/files/problem_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/delassus_form.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -50,6 +51,24 @@ TEST_CASE("A file that is missing or broken is a case, and says why when it is l
   CHECK(cases[1].name == "broken.hdf5");
   CHECK_THROWS_WITH(cases[0].load(), Catch::Contains(missing) && Catch::Contains("no such file"));
   CHECK_THROWS_WITH(cases[1].load(), Catch::Contains(broken));
+}
+
+TEST_CASE("A file's reference comes with its case, and a broken one is named") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "problems/hand/a.hdf5",
+                              reference = folder.path() / "references/hand/a.exact";
+  CHECK(reference_of(file) == reference);
+  for (const auto& path : {file, reference})
+    std::filesystem::create_directories(path.parent_path());
+  const KnownSolution known = make_known_solution({.bodies = 4, .contacts = 6});
+  write_problem(file, known.problem);
+  const auto exact = [&] { return compare_cases({file.string()})[0].load().exact; };
+  CHECK(exact().size() == 0);
+  write_solution(reference, known.problem, {known.r, {}, {}});
+  CHECK(exact().size() == 18);
+  write_solution(reference, make_known_solution({.bodies = 4, .contacts = 7}).problem,
+                 {make_known_solution({.bodies = 4, .contacts = 7}).r, {}, {}});
+  CHECK_THROWS_WITH(exact(), Catch::Contains("a.exact"));
 }
 
 TEST_CASE("What is measured of a case") {
