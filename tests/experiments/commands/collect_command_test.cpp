@@ -5,6 +5,10 @@
 
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
+#include "platform/text.hpp"
+#include "problems/algebra/contact_error.hpp"
+#include "problems/files/fclib_file.hpp"
+#include "problems/files/problem_file.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -132,6 +136,12 @@ TEST_CASE("Debian's FCLIB reads a collection, and Siconos' own measure agrees") 
         run_program(reader.string(), {entry.path().string(), reference.string()}, 60.0);
     INFO(entry.path() << ": " << said.output << said.errors);
     CHECK(said.status == 0);
+    // Siconos' measure of an answer that is none, and the judge's.
+    const FrictionProblem problem = read_problem(entry.path());
+    const Impulses r = 0.9 * read_solution(reference, problem);
+    const std::optional<double> theirs = parsed<double>(split(said.output, '\n').at(1));
+    REQUIRE(theirs);
+    CHECK(contact_error(problem, r).fclib == Approx(*theirs).epsilon(1e-6));
     ++read;
   }
   CHECK(read == 8);

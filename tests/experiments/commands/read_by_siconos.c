@@ -1,5 +1,6 @@
 /* Reads a problem with Debian's FCLIB, the library that Siconos reads files by, and prints Siconos'
-   own error of its reference. (FCLIB reads an answer from the problem's own file only.) Nothing
+   own error of its reference; then, of 0.9 times the reference's impulses, that of the problem
+   without its bodies, (W, q, mu). (FCLIB reads an answer from the problem's own file only.) Nothing
    here is Ballast's.
 
      read_by_siconos PROBLEM.hdf5 REFERENCE */
@@ -7,10 +8,12 @@
 #include <hdf5.h>
 #include <hdf5_hl.h>
 #include <math.h>
+#include <siconos/numerics/FrictionContactProblem.h>
 #include <siconos/numerics/GlobalFrictionContactProblem.h>
 #include <siconos/numerics/NumericsMatrix.h>
 #include <siconos/numerics/Friction_cst.h>
 #include <siconos/numerics/SolverOptions.h>
+#include <siconos/numerics/fc3d_compute_error.h>
 #include <siconos/numerics/gfc3d_compute_error.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,6 +39,30 @@ static double norm(const double* x, int n) {
   return sqrt(sum);
 }
 
+/* W = H^T M^-1 H, q = H^T M^-1 f + w; M is diagonal. */
+static double local_error(GlobalFrictionContactProblem* problem, double* r) {
+  const int n = problem->H->size1, dofs = problem->H->size0;
+  const double *h = problem->H->matrix0, *m = problem->M->matrix0;
+  double *w = calloc((size_t)n * n, sizeof(double)), *q = calloc(n, sizeof(double)),
+         *u = calloc(n, sizeof(double));
+  for (int c = 0; c < n; ++c) {
+    q[c] = problem->b[c];
+    for (int d = 0; d < dofs; ++d) {
+      const double at = h[d + (size_t)dofs * c] / m[d + (size_t)dofs * d];
+      if (at == 0.0) continue;
+      q[c] += at * problem->q[d];
+      for (int k = 0; k < n; ++k) w[k + (size_t)n * c] += at * h[d + (size_t)dofs * k];
+    }
+  }
+  FrictionContactProblem* local = frictionContactProblem_new_with_data(
+      3, problem->numberOfContacts, NM_create_from_data(NM_DENSE, n, n, w), q, problem->mu);
+  for (int c = 0; c < n; ++c) r[c] *= 0.9;
+  double error = NAN;
+  fc3d_compute_error(local, r, u, 1e-6, solver_options_create(SICONOS_FRICTION_3D_NSGS),
+                     norm(q, n), &error);
+  return error;
+}
+
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   struct fclib_global* read = fclib_read_global(argv[1]);
@@ -58,5 +85,6 @@ int main(int argc, char** argv) {
   gfc3d_compute_error(problem, r, u, v, 1e-6, options, norm(read->f, read->M->m),
                       norm(read->w, read->H->n), &error);
   printf("contacts %d error %.3e\n", problem->numberOfContacts, error);
+  printf("%.9e\n", local_error(problem, r));
   return error < 1e-6 ? 0 : 1;
 }
