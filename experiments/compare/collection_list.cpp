@@ -15,24 +15,24 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Values that vary together with all others': each text is one of them.
-using Axis = std::vector<std::string>;
+using Variation = std::vector<std::string>;
 
 /// An entry of the list.
 struct Entry {
   std::string name, scene, steps, part = "small";
   std::vector<std::string> set, made;
-  std::vector<Axis> vary;
+  std::vector<Variation> vary;
 };
 
-std::vector<Axis> read_vary(TomlTable& table) {
+std::vector<Variation> read_vary(TomlTable& table) {
   table.know("vary");
   constexpr const char* expected = "expected lists of texts, [[\"a.key=1\", \"a.key=2\"]]";
-  std::vector<Axis> axes;
+  std::vector<Variation> axes;
   const toml::node* node = table.as_it_stands().get("vary");
   if (!node) return axes;
   if (!node->is_array()) table.fail("vary", expected);
   for (const toml::node& list : *node->as_array()) {
-    Axis& axis = axes.emplace_back();
+    Variation& axis = axes.emplace_back();
     if (!list.is_array() || list.as_array()->empty()) table.fail("vary", expected);
     for (const toml::node& text : *list.as_array())
       axis.push_back(text.is_string() ? text.as_string()->get() : "");
@@ -60,7 +60,7 @@ Entry read_entry(TomlTable& table, const std::vector<Entry>& before) {
   table.read("part", &entry.part, one_of({"small", "large"}));
   for (std::string& text : table.texts("set")) entry.set.push_back(std::move(text));
   entry.made = table.texts("made");
-  if (std::vector<Axis> axes = read_vary(table); !axes.empty()) entry.vary = std::move(axes);
+  if (std::vector<Variation> axes = read_vary(table); !axes.empty()) entry.vary = std::move(axes);
   if (entry.scene.empty() == entry.made.empty())
     table.fail("scene", "expected either a scene or `made`, problems that are made");
   if (entry.made.empty() && entry.steps.empty()) table.text("steps");  // says that it is missing
