@@ -13,6 +13,8 @@ std::atomic<bool> interrupted{false};
 // The only kind that a signal handler may touch.
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+int guards = 0;  // that are alive
+
 constexpr int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
 extern "C" void on_signal(int signal) {
@@ -25,6 +27,7 @@ extern "C" void on_signal(int signal) {
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
+  if (guards++ > 0) return;
   interrupted = false;
   // A hang-up that was ignored before, as under nohup, stays ignored.
   for (const int signal : caught)
@@ -33,6 +36,7 @@ InterruptGuard::InterruptGuard() {
 }
 
 InterruptGuard::~InterruptGuard() {
+  if (--guards > 0) return;
   for (const int signal : caught) {
     const auto before = std::signal(signal, SIG_DFL);
     if (before == SIG_IGN) std::signal(signal, SIG_IGN);

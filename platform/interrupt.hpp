@@ -6,7 +6,9 @@ namespace ballast {
 
 /// Catches SIGINT, SIGTERM, SIGHUP (unless it is ignored, as under nohup) and SIGUSR1 (Slurm's
 /// warning before a time limit) while alive; a second SIGINT or SIGTERM ends the program at once.
-/// SIGPIPE is ignored meanwhile: who stops reading what a run prints does not end the run.
+/// SIGPIPE is ignored meanwhile: who stops reading what a run prints does not end the run. A guard
+/// within another's life changes nothing: what was asked for holds until the outer one ends. One
+/// thread makes them.
 class InterruptGuard {
  public:
   InterruptGuard();

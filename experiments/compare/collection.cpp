@@ -66,7 +66,6 @@ class Collection {
       if (const ExitCode code = run_scene(wanted, source); code != ExitCode::ok) return code;
     }
     if (!is_folder(problems)) return ExitCode::ok;
-    const InterruptGuard guard;  // only now: run() has one of its own
     const std::string label = wanted.name.substr(wanted.family.size());  // "-25-1"
     const std::vector<FoundProblem> all = find_problems(problems.string());
     if (!wanted.scene.empty() && static_cast<long>(all.size()) != wanted.steps)
@@ -191,6 +190,7 @@ bool is_held(const std::string& content) {
 
 ExitCode make_collection(const CollectionOptions& options, std::span<const CollectedRun> runs,
                          const std::function<void(const CollectedRun&)>& told) {
+  const InterruptGuard guard;
   Collection collection(options);
   for (const CollectedRun& wanted : runs) {
     told(wanted);

@@ -22,6 +22,17 @@ TEST_CASE("a signal is kept for whoever asks, and a new guard begins without one
   CHECK_FALSE(InterruptGuard::requested());
 }
 
+TEST_CASE("a guard within another's life leaves it what it was asked for") {
+  const InterruptGuard outer;
+  raise(SIGTERM);
+  {
+    const InterruptGuard inner;
+    CHECK(InterruptGuard::requested());
+  }
+  CHECK(InterruptGuard::requested());
+  raise(SIGHUP);  // still caught
+}
+
 namespace {
 
 /// How a process ends that does `work`: 128 + signal, or its exit code.
