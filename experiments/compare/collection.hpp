@@ -23,7 +23,7 @@ namespace ballast {
 struct CollectionOptions {
   std::filesystem::path folder;
   bool keeps_held_apart = false;    ///< in held/, away from those that a method is tuned on
-  double reference_seconds = 10.0;  ///< for the reference of one problem; 0: none is looked for
+  double reference_seconds = 3.0;  ///< for the reference of one problem; 0: none is looked for
   int threads = 1;                  ///< of the runs: the same bits
 };
 
