@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <set>
 
@@ -16,7 +15,8 @@ namespace {
 using enum Presence;
 
 constexpr double radians = std::numbers::pi / 180.0;
-constexpr size_t most_bodies = 1'000'000;
+constexpr size_t most_bodies = 100'000;  // of one entry
+constexpr long most_models = 1'000;      // different sizes and shapes of a crowd
 
 /// "material" as its number among those of the scene; -1 without one.
 int read_material(TomlTable& table, Scene& scene) {
@@ -208,7 +208,7 @@ void repeat(TomlTable& table, std::vector<BodySpec>& bodies) {
   table.finish();
   check_direction(table, "axis", axis);
   if (bodies.size() * static_cast<size_t>(count) > most_bodies)
-    table.fail("count", "makes more than a million bodies");
+    table.fail("count", "makes more than 100000 bodies");
   if (degrees != 0.0 && bodies[0].imposed)
     table.fail("angle_degrees", "turns a body with a motion, expected 0");
   const Quat turn = rotation_by(radians * degrees * axis.normalized());
@@ -262,6 +262,18 @@ PrincipalShape crowd_shape(const CrowdSpec& crowd, double radius, std::uint64_t 
   return to_principal_frame(make_box(2.0 * radius / crowd.aspect.norm() * crowd.aspect));
 }
 
+std::shared_ptr<const BodySpec> crowd_model(const CrowdSpec& crowd, double radius, long k) {
+  PrincipalShape solid =
+      crowd_shape(crowd, radius, crowd.seed * 1'000'003 + static_cast<std::uint64_t>(k));
+  BodySpec body;
+  body.mass = crowd.density * solid.volume;
+  body.inertia = crowd.density * solid.inertia;
+  body.shape = std::make_shared<const Polyhedron>(std::move(solid.shape));
+  body.velocity = crowd.velocity;
+  body.material = crowd.material;
+  return std::make_shared<const BodySpec>(std::move(body));
+}
+
 /// Each body in a cubic cell of its own, a little off its middle, layer upon layer from below.
 std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd) {
   constexpr double room = 1.1;  // of a cell, over the largest body's diameter
@@ -272,22 +284,17 @@ std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd)
     table.fail("count", "does not fit between from and to, where " +
                             std::to_string(static_cast<long>(fitting)) + " bodies have room");
   Random random(crowd.seed);
-  std::map<double, std::shared_ptr<const BodySpec>> made;  // by radius
+  std::vector<std::shared_ptr<const BodySpec>>
+      models;  // the first bodies; the others are like them
   std::vector<BodySpec> bodies;
   const auto along_x = static_cast<long>(cells.x()), along_y = static_cast<long>(cells.y());
   for (long k = 0; k < crowd.count; ++k) {
     const double radius = random.uniform(crowd.least_radius, crowd.radius);
-    std::shared_ptr<const BodySpec>& model = made[radius];
-    if (!model || crowd.shape == "grain") {
-      PrincipalShape solid = crowd_shape(crowd, radius, crowd.seed * 1'000'003 + k);
-      BodySpec body;
-      body.mass = crowd.density * solid.volume;
-      body.inertia = crowd.density * solid.inertia;
-      body.shape = std::make_shared<const Polyhedron>(std::move(solid.shape));
-      body.velocity = crowd.velocity;
-      body.material = crowd.material;
-      model = std::make_shared<const BodySpec>(std::move(body));
+    if (k < most_models) {
+      const bool is_new = k == 0 || crowd.shape == "grain" || crowd.least_radius < crowd.radius;
+      models.push_back(is_new ? crowd_model(crowd, radius, k) : models[0]);
     }
+    const auto& model = models[static_cast<size_t>(k % most_models)];
     BodySpec& body = bodies.emplace_back(*model);
     const long layer = k / (along_x * along_y), row = k / along_x % along_y;
     const Vec3 corner(static_cast<double>(k % along_x), static_cast<double>(row),

@@ -12,6 +12,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 import ballast
+import judge_twin
 
 program = os.environ.get("BALLAST_PROGRAM", "")
 if not os.path.exists(program):
@@ -226,6 +227,9 @@ class Scenes(unittest.TestCase):
             self.assertEqual(captured[1].bodies.shape, (n, 2))
             self.assertLess(ballast.judge(captured[1].problem, captured[1].solution)
                             ["natural_map_rms"], captured[1].velocity_scale)
+            for file in sorted(pathlib.Path(output, "capture").iterdir()):
+                r = 0.9 * ballast.Captured.read(file).solution
+                self.assertLess(judge_twin.largest_difference(file, r), 1e-9)
             with self.assertRaisesRegex(ballast.Error, "no such dataset"):
                 record["steps/colour"]
 
