@@ -63,8 +63,8 @@ def judge(path, r):
     natural = np.linalg.norm(r - onto_cone(r - rho[:, None] * bent, mu), axis=1) * largest
     unscaled = np.linalg.norm(r - onto_cone(r - bent, mu))
     norms = [np.linalg.norm(x) for x in (q, r, u)]
-    return {"natural_map_rms": np.sqrt(np.mean(natural[moves]**2)),
-            "natural_map_max": natural[moves].max(),
+    return {"natural_map_rms": np.sqrt(np.sum(natural[moves]**2) / max(1, moves.sum())),
+            "natural_map_max": natural[moves].max(initial=0),
             "fclib": unscaled / max(norms),
             "cone_violation": np.linalg.norm(r - onto_cone(r, mu), axis=1).max(),
             "min_normal_velocity": u[:, 0].min(),
