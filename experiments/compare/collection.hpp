@@ -22,9 +22,9 @@ namespace ballast {
 
 struct CollectionOptions {
   std::filesystem::path folder;
-  bool keeps_held_apart = false;    ///< in held/, away from those that a method is tuned on
+  bool keeps_held_apart = false;   ///< in held/, away from those that a method is tuned on
   double reference_seconds = 3.0;  ///< for the reference of one problem; 0: none is looked for
-  int threads = 1;                  ///< of the runs: the same bits
+  int threads = 1;                 ///< of the runs: the same bits
 };
 
 /// Makes what is missing of the folder. `told` is called before each run. The code is that of the
