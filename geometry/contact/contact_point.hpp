@@ -3,6 +3,7 @@
 // names by which they are known from step to step.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "geometry/shape/polyhedron.hpp"
@@ -102,6 +103,22 @@ inline std::uint64_t vertex_key(int body, int index) {
 inline std::uint64_t edges_key(int body, int own, int other) {
   return body == 0 ? feature_key(PointKind::edges, own, other)
                    : feature_key(PointKind::edges, other, own);
+}
+
+/// Of bodies of several parts the upper 15 of a body's 31 bits name the part.
+inline constexpr int most_key_features = 1 << 16, most_key_parts = 1 << 15;
+
+/// The same feature between numbered parts of the bodies; turned round where a and b change places.
+inline std::uint64_t key_of_parts(std::uint64_t key, int part_a, int part_b, bool is_turned) {
+  constexpr std::uint64_t low_bits = (std::uint64_t{1} << 31) - 1;
+  std::uint64_t code = key >> 62;
+  std::uint64_t a = (key >> 31 & low_bits) + static_cast<std::uint64_t>(part_a) * most_key_features;
+  std::uint64_t b = (key & low_bits) + static_cast<std::uint64_t>(part_b) * most_key_features;
+  if (is_turned) {
+    std::swap(a, b);
+    if (code < 2) code = 1 - code;  // a vertex of a is one of b then
+  }
+  return code << 62 | a << 31 | b;
 }
 
 }  // namespace ballast

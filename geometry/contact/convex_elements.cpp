@@ -8,30 +8,13 @@
 namespace ballast {
 namespace {
 
-constexpr int part_shift = 16;  // of the 31 bits that a key has for each body's feature
-constexpr int most_features = 1 << part_shift, most_parts = 1 << (31 - part_shift);
-
-/// The same feature of numbered parts of the bodies; turned round where a and b change places.
-std::uint64_t key_of_parts(std::uint64_t key, int part_a, int part_b, bool is_turned) {
-  constexpr std::uint64_t low_bits = (std::uint64_t{1} << 31) - 1;
-  std::uint64_t kind = key >> 62;
-  std::uint64_t a = (key >> 31 & low_bits) | static_cast<std::uint64_t>(part_a) << part_shift;
-  std::uint64_t b = (key & low_bits) | static_cast<std::uint64_t>(part_b) << part_shift;
-  if (is_turned) {
-    std::swap(a, b);
-    if (kind < 2) kind = 1 - kind;  // a vertex of the one is a vertex of the other
-  }
-  return kind << 62 | a << 31 | b;
-}
-
 void check_period(std::span<const ContactShape> bodies, const Period& period) {
-  const double length = period.vector.norm();
   for (size_t b = 0; b < bodies.size(); ++b) {
     const std::string name = "body " + std::to_string(b);
     if (!bodies[b].polyhedron) {
-      if (std::abs(bodies[b].plane.normal.dot(period.vector)) > 1e-9 * length)
+      if (!period.keeps_plane(bodies[b].plane.normal))
         throw std::invalid_argument(name + ": a plane that cuts the period");
-    } else if (!(4.0 * bodies[b].polyhedron->circumradius() < length)) {
+    } else if (!period.has_room_for(bodies[b].polyhedron->circumradius())) {
       throw std::invalid_argument(name + ": not smaller than half a period");
     }
   }
@@ -57,7 +40,7 @@ ConvexElements::ConvexElements(std::span<const ContactShape> bodies, const Perio
       }
       int part = 0;
       for (const ConvexPart& convex : convex_parts(bodies[b])) {
-        if (part == most_parts || convex.polyhedron->edge_count() >= most_features)
+        if (part == most_key_parts || convex.polyhedron->edge_count() >= most_key_features)
           throw std::invalid_argument("body " + std::to_string(b) +
                                       ": too many parts, or edges of one, for contact keys");
         const ContactShape shape{convex.polyhedron, {}, bodies[b].fixed};

@@ -13,6 +13,15 @@ struct Period {
   Vec3 vector = Vec3::Zero();
 
   bool repeats() const { return !vector.isZero(0.0); }
+  /// Whether a plane of this unit normal is the same plane one period on.
+  bool keeps_plane(const Vec3& normal) const {
+    return std::abs(normal.dot(vector)) <= 1e-9 * vector.norm();
+  }
+  /// Whether a body of this circumradius [m] is smaller than half a period, so that it meets
+  /// another body on one side only, and its nearest image is the one that is touched.
+  bool has_room_for(double circumradius) const {
+    return !repeats() || 4.0 * circumradius < vector.norm();
+  }
   /// The image of a place that lies in the first period, 0 <= x.P / P.P < 1.
   Vec3 wrapped(const Vec3& x) const { return repeats() ? Vec3(x - periods(x, 0.0)) : x; }
   /// Of the vectors that differ from x by whole periods the one least along the period.

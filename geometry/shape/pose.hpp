@@ -21,6 +21,11 @@ struct Pose {
   Vec3 operator*(const Vec3& p_B) const { return position + rotation * p_B; }
 };
 
+/// The pose in W of a frame that has the pose `inner` in the frame of `outer`; normalised.
+inline Pose composed(const Pose& outer, const Pose& inner) {
+  return {outer * inner.position, (outer.rotation * inner.rotation).normalized()};
+}
+
 /// exp(phi/2): the rotation by |phi| [rad] around phi, exact to rounding at every size of phi.
 inline Quat rotation_by(const Vec3& phi) {
   const double angle_sq = phi.squaredNorm();

@@ -120,9 +120,7 @@ ReadShape read_parts(TomlTable& table, const fs::path& folder) {
     const ReadShape shape = read_shape(part, folder);
     if (!shape.parts.empty()) part.fail("shape", "has parts of its own");
     part.finish();
-    placed.push_back(
-        {shape.hull,
-         {pose * shape.pose.position, (pose.rotation * shape.pose.rotation).normalized()}});
+    placed.push_back({shape.hull, composed(pose, shape.pose)});
     keys += shape.mesh_key;
   }
   if (placed.empty()) table.fail("part", "empty, expected at least one [[body.part]]");

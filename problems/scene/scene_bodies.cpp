@@ -105,8 +105,7 @@ WallSpec read_wall(TomlTable& table, Scene& scene) {
       load.fail("f_min", "larger than f_max, expected f_min <= f_max");
   }
   table.finish();
-  const Vec3& period = scene.period.vector;
-  if (std::abs(wall.normal.dot(period)) > 1e-9 * period.norm())
+  if (!scene.period.keeps_plane(wall.normal))
     table.fail("normal", "not across scene.period: the plane would be no plane in the next one");
   return wall;
 }
@@ -187,8 +186,7 @@ BodySpec read_body(TomlTable& table, const fs::path& folder, Scene& scene, size_
 
   // pose of the shape as given, then of its principal frame within it
   const Pose pose{body.pose.position, read_orientation(table.section("orientation"))};
-  body.pose.position = pose * shape.pose.position;
-  body.pose.rotation = (pose.rotation * shape.pose.rotation).normalized();
+  body.pose = composed(pose, shape.pose);
   // A scene gives spins in the world frame, and states keep them in the body frame.
   body.spin = body.pose.rotation.conjugate() * body.spin;
   read_force(table.section("force"), body.force);
@@ -309,7 +307,7 @@ std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd)
 
 /// In a world that repeats itself a body meets its own image unless it is small.
 void check_size(const TomlTable& table, const BodySpec& body, const Period& period) {
-  if (period.repeats() && !(4.0 * body.shape->circumradius() < period.vector.norm()))
+  if (!period.has_room_for(body.shape->circumradius()))
     table.fail("shape", "not smaller than half of scene.period");
 }
 
