@@ -156,25 +156,31 @@ class Collection {
   /// an interrupt left is no result.
   void refer(const std::string& name, const fs::path& file, const LoadedCase& loaded) {
     const fs::path answer = reference_of(file);
-    const std::string budget = "reference_seconds";
-    const auto number = [&](const std::string& entry) {
-      return Hdf5Reader(answer).read_doubles("/ballast_answer/" + entry).at(0);
-    };
-    if (!is_there(answer) ||
-        (number("exact") == 0.0 && number(budget) < options_.reference_seconds)) {
-      const Reference found = find_reference(loaded, options_.reference_seconds);
+    Reference known;
+    double had = 0.0;  // seconds
+    if (is_there(answer)) {
+      const Hdf5Reader kept(answer);
+      const auto number = [&](const char* entry) {
+        return kept.read_doubles(std::string("/ballast_answer/") + entry).at(0);
+      };
+      known.error = number("error");
+      known.is_exact = number("exact") != 0.0;
+      known.solver = kept.read_text("/ballast_answer/backend");
+      had = number("reference_seconds");
+    }
+    if (!known.is_exact && had < options_.reference_seconds) {
+      known = find_reference(loaded, options_.reference_seconds);
       if (InterruptGuard::requested()) return;
       create_folder(answer.parent_path());
       write_solution(answer, loaded.problem,
-                     {found.impulses,
-                      {{"error", found.error},
-                       {"exact", found.is_exact},
-                       {budget, options_.reference_seconds}},
-                      {{"backend", found.solver}}});
+                     {known.impulses,
+                      {{"error", known.error},
+                       {"exact", known.is_exact},
+                       {"reference_seconds", options_.reference_seconds}},
+                      {{"backend", known.solver}}});
     }
-    references_.add_row(std::vector<std::string>{
-        name, printed("%.0f", number("exact")), printed("%.3g", number("error")),
-        Hdf5Reader(answer).read_text("/ballast_answer/backend")});
+    references_.add_row(std::vector<std::string>{name, known.is_exact ? "1" : "0",
+                                                 printed("%.3g", known.error), known.solver});
   }
 
   const CollectionOptions& options_;
