@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <new>
 #include <optional>
 #include <set>
@@ -253,21 +254,37 @@ class Comparison {
                        '|' + name_of(row.start) + '|' + numbers);
   }
 
+  /// A tighter tolerance is not tried where a looser one took all the time: its row is the looser
+  /// one's, and says so.
+  static void take_late(const CompareRow& looser, CompareRow& row) {
+    const std::string key = row.key;
+    const double tolerance = row.tolerance;
+    row = looser;
+    row.key = key;
+    row.tolerance = tolerance;
+    row.note = printed("not tried: out of time to %g already", looser.tolerance);
+  }
+
   /// The row that is there already, or one that is made now and kept; unsolved ones are not
   /// repeated.
   void attempt(const LoadedCase& loaded, const ComparedSolver& solver, CompareRow row) {
-    const std::string identity = row.case_name + '|' + row.solver + '|' + name_of(row.start) + '|' +
-                                 std::to_string(row.tolerance);
+    const std::string who = row.case_name + '|' + row.solver + '|' + name_of(row.start);
+    const std::string identity = who + '|' + std::to_string(row.tolerance);
     if (row.repeat > 0 && unsolved_.contains(identity)) return;
     row.key = key_of(row, solver);
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
     const bool was_there = take_stored(file, row);
     if (!was_there) {
-      solve_case(solver, loaded, options_.limits, row);
+      const auto looser = late_.find(who);
+      if (looser != late_.end() && looser->second.tolerance > row.tolerance)
+        take_late(looser->second, row);
+      else
+        solve_case(solver, loaded, options_.limits, row);
       // an interrupt reaches the child as well: what it left is no result
       if (!InterruptGuard::requested()) write_whole_file(file, to_json(row));
     }
     if (row.verdict != Verdict::solved) unsolved_.insert(identity);
+    if (row.verdict == Verdict::timeout) late_.emplace(who, row);
     add(std::move(row), was_there);
   }
 
@@ -309,6 +326,7 @@ class Comparison {
   std::string binary_;
   std::vector<CompareRow> rows_;
   std::set<std::string> unsolved_, unreadable_;
+  std::map<std::string, CompareRow> late_;  ///< the loosest timeout of a case, backend and start
   size_t done_ = 0, count_ = 0;
   bool goes_on_ = true;
 };

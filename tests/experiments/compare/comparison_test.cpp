@@ -140,6 +140,29 @@ TEST_CASE("Every case is tried by every solver to every tolerance, and the table
   CHECK(manifest.find("\"solved\": 8") != std::string::npos);
 }
 
+TEST_CASE("What a looser tolerance took all the time for is not tried to a tighter one") {
+  const TemporaryFolder folder;
+  CompareOptions options = options_in(folder.path(), parse_solvers("pgs,nncg"));
+  options.tolerances = {1e-2, 1e-4};
+  options.max_seconds = 1e-9;
+  const auto go_on = [](const CompareRow&, bool, size_t, size_t) { return true; };
+  const std::vector<CompareRow> rows = run_comparison(one_case(), options, go_on);
+  REQUIRE(rows.size() == 4);
+  for (const size_t k : {0, 1}) {
+    const CompareRow &loose = rows[k], &tight = rows[k + 2];
+    CHECK(loose.verdict == Verdict::timeout);
+    CHECK(loose.note.empty());
+    CHECK(tight.verdict == Verdict::timeout);
+    CHECK(tight.note == "not tried: out of time to 0.01 already");
+    CHECK(tight.tolerance == 1e-4);
+    CHECK(tight.solver == loose.solver);
+    CHECK(tight.key != loose.key);
+    CHECK(tight.solve_seconds == loose.solve_seconds);
+  }
+  options.max_seconds = 20.0;
+  for (const CompareRow& row : run_comparison(one_case(), options, go_on)) CHECK(row.note.empty());
+}
+
 TEST_CASE("A case that cannot be read is one row with its reason, and the others go on") {
   const TemporaryFolder folder;
   std::vector<CompareCase> cases = compare_cases({"known:contacts=12,bodies=6,count=2"});
