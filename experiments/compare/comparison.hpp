@@ -86,10 +86,10 @@ using CompareProgress =
     std::function<bool(const CompareRow& row, bool was_there, size_t done, size_t count)>;
 
 /// Tries everything that has no row yet, and returns the rows in order: repeat, case, tolerance,
-/// start, solver. Where a solver ran out of time to a looser tolerance it is not tried: the row is a
-/// copy of that one, with a note. results.csv and manifest.json are written at the end and when stopped. A case
-/// that cannot be loaded is one row (Verdict::unreadable, with the reason for its note), which is
-/// tried again the next time; so is a row whose file is damaged.
+/// start, solver. Where a solver ran out of time to a looser tolerance it is not tried: the row is
+/// a copy of that one, with a note. results.csv and manifest.json are written at the end and when
+/// stopped. A case that cannot be loaded is one row (Verdict::unreadable, with the reason for its
+/// note), which is tried again the next time; so is a row whose file is damaged.
 std::vector<CompareRow> run_comparison(const std::vector<CompareCase>& cases,
                                        const CompareOptions& options,
                                        const CompareProgress& progress);
