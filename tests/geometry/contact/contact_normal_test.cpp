@@ -113,7 +113,7 @@ TEST_CASE("case table: face on face, edge on face, vertex on face") {
   check_case(above(turn(45, Vec3::UnitY()), 1.0 + s2), -depth, 1.0 - 0.5 * depth,
              {{0.5, -0.75}, {0.5, 1.0}});
   // a box on its corner
-  const Mat3 on_corner = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
+  const Mat3 on_corner = turned_onto(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
   const Contact vertex = above(on_corner, 1.0 + s3);
   check_case(vertex, -depth, 1.0 - 0.5 * depth, {{0.5, 0.25}});
   CHECK(vertex.axis.feature.kind == AxisKind::face_of_a);
@@ -122,7 +122,7 @@ TEST_CASE("case table: face on face, edge on face, vertex on face") {
 TEST_CASE(
     "case table: seen from the other body, a face of b decides and the normal still leaves a") {
   const double depth = 1e-3;
-  const Mat3 on_corner = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, 1)).toRotationMatrix();
+  const Mat3 on_corner = turned_onto(Vec3(1, 1, 1), Vec3(0, 0, 1)).toRotationMatrix();
   // a stands below b on its corner: a's frame is turned
   const RelativePose b_in_a{on_corner.transpose(),
                             on_corner.transpose() * Vec3(0, 0, 1.0 + std::sqrt(3.0) - depth)};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "geometry/contact/axis_search.hpp"
 #include "geometry/shape/convex_hull.hpp"
@@ -88,7 +89,7 @@ PairCase faces_together(PairCase c, Random& random) {
   const int f = random.below(a.face_count()), g = random.below(b.face_count());
   const Quat spin(
       Eigen::AngleAxisd(random.below(3) == 0 ? 0.0 : random.uniform(0.0, 6.28), a.normal(f)));
-  const Quat rotation = spin * Quat::FromTwoVectors(b.normal(g), -a.normal(f));
+  const Quat rotation = spin * turned_onto(b.normal(g), -a.normal(f));
   Vec3 centre_a = Vec3::Zero(), centre_b = Vec3::Zero();
   for (int v : a.face(f)) centre_a += a.vertex(v) / static_cast<double>(a.face(f).size());
   for (int v : b.face(g)) centre_b += b.vertex(v) / static_cast<double>(b.face(g).size());
@@ -129,6 +130,12 @@ Contact contact_of(const ShapePair& pair, double alert, int max_points) {
   const auto points = manifold.points(pair, contact.axis, alert, max_points);
   contact.points.assign(points.begin(), points.end());
   return contact;
+}
+
+Quat turned_onto(const Vec3& from, const Vec3& to) {
+  const Vec3 a = from.normalized(), b = to.normalized(), axis = a.cross(b);
+  if (a.dot(b) < -1.0 + 1e-9) return Quat(Eigen::AngleAxisd(std::numbers::pi, a.unitOrthogonal()));
+  return Quat(1.0 + a.dot(b), axis.x(), axis.y(), axis.z()).normalized();
 }
 
 Polyhedron prism(int sides, double radius, double height) {

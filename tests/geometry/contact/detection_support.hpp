@@ -17,6 +17,10 @@ const std::vector<CollisionShape>& collision_pool();
 /// A face of the shape with its loop.
 CollisionShape::FaceTable face_table(const CollisionShape& shape, int face);
 
+/// A rotation that brings the direction `from` to the direction `to`, by the least angle. Eigen's
+/// FromTwoVectors() takes a singular value decomposition, and compilers seven seconds for it.
+Quat turned_onto(const Vec3& from, const Vec3& to);
+
 Polyhedron prism(int sides, double radius, double height);
 /// A box whose sides are split into two triangles each.
 Polyhedron triangulated_box(const Vec3& size);

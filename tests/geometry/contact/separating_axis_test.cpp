@@ -37,7 +37,7 @@ TEST_CASE("a face's separation is the gap to the other body's nearest vertex") {
   const CollisionShape box(make_box(Vec3(2, 2, 2)));
   Heights heights(512);
   // a cube on its corner above the top face, off centre
-  const Mat3 corner_down = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
+  const Mat3 corner_down = turned_onto(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
   const ShapePair pair(box, box, {corner_down, Vec3(0.3, -0.2, 1.0 + std::sqrt(3.0) - 0.01)});
   const auto axis = evaluate_axis(pair, {AxisKind::face_of_a, top_face(box), -1}, heights);
   REQUIRE(axis);

@@ -31,7 +31,8 @@ Eigen::MatrixXd shifted(const FrictionProblem& problem, Eigen::MatrixXd w,
                         const std::vector<Eigen::Matrix3d>& sigma) {
   for (int c = 0; c < problem.contact_count(); ++c) {
     const int first = problem.row_begin[c], rows = problem.contact_rows(c);
-    w.block(first, first, rows, rows) += sigma[c].topLeftCorner(rows, rows).inverse();
+    if (rows == 3) w.block<3, 3>(first, first) += sigma[c].inverse();
+    if (rows == 1) w(first, first) += 1.0 / sigma[c](0, 0);
   }
   return w;
 }
