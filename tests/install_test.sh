@@ -16,8 +16,10 @@ cmake --install "$build" --prefix "$folder/first" >"$folder/log" 2>&1 ||
 mv "$folder/first" "$folder/moved"
 grep -rl "$root" "$folder"/moved/lib*/cmake && fail "the CMake package names the source tree"
 cd "$folder"
-BALLAST_SCENES= moved/bin/ballast run zeno_ball --output run --no-report \
-  --set scene.duration=0.01 >log 2>&1 || { cat log; fail "the installed program does not run"; }
+for scene in zeno_ball drum; do  # drum has a mesh
+  BALLAST_SCENES= moved/bin/ballast run $scene --output run_$scene --no-report \
+    --set scene.duration=0.01 >log 2>&1 || { cat log; fail "$scene does not run, installed"; }
+done
 
 # A project outside the tree.
 cmake -S "$root/examples/library" -B example -DCMAKE_PREFIX_PATH="$folder/moved" \

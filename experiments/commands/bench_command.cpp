@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "experiments/bench/accuracy_bench.hpp"
+#include "experiments/bench/bench_page.hpp"
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/comparison.hpp"
@@ -219,6 +220,18 @@ Command captured_command() {
           [request] { return bench_captured(*request); }};
 }
 
+Command all_command() {
+  const auto all = std::make_shared<BenchAll>();
+  return {"all",
+          "Everything on the page of results, by its own commands, and the page anew: hours",
+          {{"--output DIR", &all->output, "Folder of the results"},
+           {"--beside COMMAND", &all->beside,
+            "Another program's step, by turns with ours: its last word is milliseconds"},
+           {"--page FILE", &all->page, "A page of yours, written as experiments/bench/results.md"},
+           {"--rows FILE", &all->rows, "The page of these numbers.csv; nothing is measured"}},
+          [all] { return bench_all(*all); }};
+}
+
 Command diff_command() {
   struct Files {
     std::filesystem::path a, b;
@@ -242,7 +255,7 @@ Command bench_command() {
           {},
           {},
           {kernels_command(), step_command(), scaling_command(), accuracy_command(),
-           captured_command(), diff_command()}};
+           captured_command(), all_command(), diff_command()}};
 }
 
 }  // namespace ballast

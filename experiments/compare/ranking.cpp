@@ -104,7 +104,7 @@ std::set<std::string> runs_of(const CaseGroup& group) {
   return runs;
 }
 
-std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows) {
+std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows, double shift) {
   using Repeats = std::vector<const CompareRow*>;
   std::map<std::pair<double, StartKind>, std::map<std::string, std::map<std::string, Repeats>>> all;
   for (const CompareRow& row : rows)
@@ -128,7 +128,7 @@ std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows) {
       for (const auto& [solver, repeats] : by_solver) {
         const RepeatedSolve solve = over_repeats(repeats);
         tried.log_seconds(c, s++) =
-            std::log(summary_shift + (solve.solved ? std::min(solve.median, limit) : limit));
+            std::log(shift + (solve.solved ? std::min(solve.median, limit) : limit));
       }
       ++c;
     }

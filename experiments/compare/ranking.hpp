@@ -9,7 +9,7 @@
 
 #include <Eigen/Dense>
 
-#include "experiments/compare/compare_row.hpp"
+#include "experiments/compare/compare_page.hpp"
 
 namespace ballast {
 
@@ -19,14 +19,14 @@ struct TriedCases {
   double tolerance = 0.0;
   std::vector<std::string> solvers;      ///< sorted
   std::vector<const CompareRow*> cases;  ///< a row of each, sorted by name
-  /// Cases x solvers: log(time + summary_shift), the time [s] of the median repeat; the limit where
-  /// it is not solved.
+  /// Cases x solvers: log(time + shift), the time [s] of the median repeat; the limit where it is
+  /// not solved.
   Eigen::MatrixXd log_seconds;
 };
 
 /// One for each start and tolerance, loosest tolerance first. The rows must outlive it; unreadable
 /// ones count for nothing.
-std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows);
+std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows, double shift = summary_shift);
 
 /// Some of them.
 struct CaseGroup {

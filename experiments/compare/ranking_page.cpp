@@ -9,6 +9,7 @@
 #include "experiments/compare/collection.hpp"
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
+#include "experiments/page/markdown.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "platform/text.hpp"
@@ -288,7 +289,9 @@ void write_ranking(const fs::path& folder, std::span<const CompareRow> rows) {
   const Ranking ranking(rows);
   write_whole_file(folder / "table.csv", ranking.csv());
   const RunData data = read_origin(folder);
-  write_with_origin(ranking.page(), data, folder / "index.html");
+  const page::Page page = ranking.page();
+  write_with_origin(page, data, folder / "index.html");
+  write_whole_file(folder / "ranking.md", markdown_of(page));
 }
 
 }  // namespace ballast

@@ -1,5 +1,5 @@
 #pragma once
-// The public table of a collection's comparison: index.html and table.csv.
+// The public table of a collection's comparison, as a page and as rows.
 
 #include <filesystem>
 #include <span>
@@ -11,6 +11,7 @@ namespace ballast {
 /// Writes into `folder`, whose manifest.json says who made the rows:
 ///   index.html   the order of the backends, the held part apart; each family; how far the order
 ///                holds; what each backend fails on; the families
+///   ranking.md   the same
 ///   table.csv    a line for each part (open, held), family or size, tolerance, start and backend
 /// Throws Error.
 void write_ranking(const std::filesystem::path& folder, std::span<const CompareRow> rows);

@@ -154,6 +154,13 @@ double Manifest::summary_number(const std::string& name) const {
   return found->get<double>();
 }
 
+std::map<std::string, double> Manifest::summary_numbers() const {
+  std::map<std::string, double> numbers;
+  for (const auto& [name, value] : json_->at("summary").items())
+    if (value.is_number()) numbers[name] = value.get<double>();
+  return numbers;
+}
+
 /// Names from a command line may be no UTF-8: such bytes are replaced, not refused.
 std::string Manifest::text() const {
   return json_->dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -15,6 +15,7 @@
 // Times of day and the machine are here and nowhere else, so that records of equal runs are equal.
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -59,6 +60,7 @@ class Manifest {
   std::string started() const;  ///< UTC, "2026-11-22T09:30:00Z"
   /// NaN when there is no such number.
   double summary_number(const std::string& name) const;
+  std::map<std::string, double> summary_numbers() const;  ///< all that there are
 
   std::string text() const;
   /// Writes beside and renames. Throws Error.

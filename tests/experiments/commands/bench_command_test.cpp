@@ -1,6 +1,7 @@
 // `ballast bench` as it is called: two results side by side, and a short measurement.
 
 #include <filesystem>
+#include <sstream>
 
 #include "experiments/bench/measurement.hpp"
 #include "platform/atomic_file.hpp"
@@ -41,4 +42,87 @@ TEST_CASE("steps are measured, and how is kept with them") {
   REQUIRE_FALSE(kept.measurements.empty());
   CHECK(kept.measurements[0].samples == 5);
   CHECK_FALSE(std::filesystem::exists(output / "step.svg"));
+}
+
+namespace {
+
+/// Two turns of a step beside another program, a comparison, and a run.
+const char* const small_page = R"(<!--
+step x2: bench step BOX --steps 3 --no-plot --packing-cache packings
+other x2: beside
+known x1: compare known:contacts=12,bodies=6,count=3 --solvers pgs,nncg --no-report
+run x1: run zeno_ball --set scene.duration=0.01 --no-report --continue
+-->
+|{{step: 1 thread, all/step over other: step}}|{{known: pgs to 0.0001, solved}}|
+|{{run: step_s over 1e-6}}|
+{{known: pgs to 0.0001, beside the others}} {{known: nncg to 0.0001, beside the others}}
+{{known}} on {{date}}
+)";
+
+std::string page_of_small_box() {
+  std::string page = small_page;
+  page.replace(page.find("BOX"), 3,
+               "vibrated_box_small --set grains.count=12 --set box.length=0.12 --set "
+               "box.width=0.12 --set control_volume.margin_x=0.02");
+  return page;
+}
+
+}  // namespace
+
+TEST_CASE("a page of results is measured by its own commands, once, and made again of its rows") {
+  const TemporaryFolder folder;
+  const std::string page = folder.write("page.md", page_of_small_box()).string(),
+                    output = (folder.path() / "all").string();
+  const auto all = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"bench", "all", "--page", page});
+    return ballast_program(more);
+  };
+  const std::vector<std::string> words{"--output", output, "--beside", "echo one step: 1e-9"};
+  const ProgramResult first = all(words);
+  INFO(first.errors);
+  REQUIRE(first.status == 0);
+  CHECK_THAT(first.output, Catch::Contains("step/1") && Catch::Contains("other/2"));
+  const std::string told = read_whole_file(folder.path() / "all" / "results.md");
+  CHECK_THAT(told, Catch::Contains("|100|\n|100|\n") &&
+                       Catch::Contains("`ballast compare known:contacts=12,bodies=6,count=3 "));
+  // two backends: what one is over the other is one over what the other is
+  std::istringstream cells(
+      told.substr(told.find("|100|\n|100|\n") + std::string("|100|\n|100|\n").size()));
+  double pgs = 0.0, nncg = 0.0;
+  cells >> pgs >> nncg;
+  CHECK(pgs * nncg == Approx(1.0).epsilon(0.03));
+  double over = 0.0;  // a step over a billionth of a millisecond
+  std::istringstream(told.substr(1)) >> over;
+  CHECK(over > 1e6);
+
+  const ProgramResult again = all(words);
+  CHECK(again.status == 0);
+  CHECK_THAT(again.output, !Catch::Contains("step/1"));
+  CHECK(read_whole_file(folder.path() / "all" / "results.md") == told);
+  const std::string copy = (folder.path() / "copy").string();
+  CHECK(all({"--output", copy, "--rows", output + "/measured/numbers.csv"}).status == 0);
+  CHECK(read_whole_file(folder.path() / "copy" / "results.md") == told);
+}
+
+TEST_CASE("a page of results that cannot be measured says why") {
+  const TemporaryFolder folder;
+  const auto complaint = [&](const std::string& page, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"bench", "all", "--page", folder.write("page.md", page).string(),
+                               "--output", (folder.path() / "all").string()});
+    return ballast_program(more);
+  };
+  CHECK(complaint("<!--\nother x1: beside\n-->\n{{other: step}}\n").status == 0);  // no --beside
+  CHECK(read_whole_file(folder.path() / "all" / "results.md") == "–\n");
+  check_failure(complaint("no stages\n"), ExitCode::failure, {"does not begin with its stages"});
+  check_failure(complaint("<!--\nlist solvers\n-->\n"), ExitCode::failure,
+                {"'list solvers'", "expected NAME xTURNS: WORDS"});
+  check_failure(complaint("<!--\nlist x1: solvers --nothing\n-->\n"), ExitCode::failure,
+                {"list failed", "list/1.log"});
+  check_failure(
+      complaint("<!--\nother x1: beside\n-->\n{{other}} {{a step}}\n", {"--beside", "echo 1"}),
+      ExitCode::failure, {"{{a step}}"});
+  check_failure(complaint("<!--\nother x1: beside\n-->\n{{other: wall}}\n", {"--beside", "echo 1"}),
+                ExitCode::failure, {"other measures no 'wall'"});
+  check_failure(complaint("<!--\nother x1: beside\n-->\n", {"--beside", "echo none"}),
+                ExitCode::failure, {"'echo none'", "its last word is no number"});
 }

@@ -1,6 +1,6 @@
 // Whatever a backend does to its process becomes a row, and nobody is believed without the judge.
 
-#include "experiments/compare/comparison.hpp"
+#include "experiments/compare/one_solve.hpp"
 
 #include <signal.h>
 
@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "experiments/compare/comparison.hpp"
 #include "platform/atomic_file.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "solvers/solver_list.hpp"

@@ -63,6 +63,8 @@ TEST_CASE("A ranking is a page and a table, with the held part apart") {
   for (const char* words : {"2 backends on 30 problems.", "&lt;wild&gt;", "10 crashed",
                             "&lt;wild&gt; (10 of 10)", "held problems", "1 to 10 contacts"})
     CHECK_THAT(page, Catch::Contains(words));
+  CHECK_THAT(read_whole_file(folder.path() / "ranking.md"),
+             Catch::Contains("2 backends on 30 problems.") && Catch::Contains("| sure |"));
   // The order turns round in the one family: the fast backend is first in the other alone.
   const std::string again = read_whole_file(folder.path() / "table.csv");
   write_ranking(folder.path(), rows);

@@ -1,0 +1,292 @@
+#include "experiments/bench/bench_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <iostream>
+#include <limits>
+#include <memory>
+
+#include "experiments/bench/measurement.hpp"
+#include "experiments/compare/comparison.hpp"
+#include "experiments/compare/ranking.hpp"
+#include "experiments/compare/stored_comparison.hpp"
+#include "experiments/run/run_folder.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
+#include "platform/interrupt.hpp"
+#include "platform/program.hpp"
+#include "platform/text.hpp"
+
+namespace ballast {
+
+std::string bench_page_text();  // results.md
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string trimmed(std::string_view text) {
+  const size_t first = text.find_first_not_of(" \n"), last = text.find_last_not_of(" \n");
+  return first == std::string_view::npos ? "" : std::string(text.substr(first, last - first + 1));
+}
+
+/// Words between blanks; a quoted one may hold some.
+std::vector<std::string> words_of(std::string_view line) {
+  std::vector<std::string> words;
+  bool is_quoted = false, is_begun = false;
+  for (const char c : line) {
+    if (c == '\'') is_quoted = !is_quoted;
+    if (c == '\'' || (c == ' ' && !is_quoted)) {
+      if (c == ' ') is_begun = false;
+      continue;
+    }
+    if (!is_begun) words.emplace_back();
+    is_begun = true;
+    words.back() += c;
+  }
+  return words;
+}
+
+/// "NAME xTURNS: WORDS"
+BenchStage stage_of(const std::string& line) {
+  const size_t colon = line.find(": ");
+  const std::vector<std::string> head = words_of(line.substr(0, colon));
+  const auto turns = head.size() == 2 ? parsed<int>(head[1].substr(1)) : std::nullopt;
+  if (colon == std::string::npos || !turns || head[1][0] != 'x' || *turns < 1)
+    throw Error("results.md: '" + line + "': expected NAME xTURNS: WORDS");
+  const std::vector<std::string> words = words_of(line.substr(colon + 2));
+  if (words.empty()) throw Error("results.md: '" + line + "': has no command");
+  return {head[0], *turns, words.front() == "beside" ? std::vector<std::string>() : words};
+}
+
+fs::path folder_of(const BenchStage& stage, int turn) {
+  return fs::path(stage.name) / std::to_string(turn);
+}
+
+/// As the page shows it, to be run where the page was.
+std::string command_of(const BenchStage& stage) {
+  if (stage.words.empty()) return "another program, by turns";
+  std::vector<std::string> words = stage.words;
+  words.insert(words.begin(), "ballast");
+  words.insert(words.end(), {"--output", folder_of(stage, 1).string()});
+  return '`' + shell_line(words) + '`';
+}
+
+/// `text` with each {{words}} replaced.
+std::string replaced(std::string_view text,
+                     const std::function<std::string(const std::string&)>& value) {
+  std::string result;
+  while (true) {
+    const size_t open = text.find("{{"), close = text.find("}}", open);
+    result.append(text.substr(0, open));
+    if (open == std::string_view::npos) return result;
+    if (close == std::string_view::npos) throw Error("results.md: {{ without }}");
+    result += value(std::string(text.substr(open + 2, close - open - 2)));
+    text.remove_prefix(close + 2);
+  }
+}
+
+/// Ratios with two decimals, all else in three digits.
+std::string shown(double value, bool is_ratio) {
+  if (std::abs(value) >= 1000.0) return printed("%.0f", value);
+  return printed(is_ratio && value < 10.0 ? "%.2f" : "%.3g", value);
+}
+
+/// NaN: not measured.
+double value_of(const std::string& expression, const StageNumbers& numbers) {
+  if (const size_t over = expression.rfind(" over "); over != std::string::npos)
+    return value_of(expression.substr(0, over), numbers) /
+           value_of(expression.substr(over + 6), numbers);
+  if (const auto number = parsed<double>(expression)) return *number;
+  const size_t colon = expression.find(": ");
+  if (colon == std::string::npos) throw Error("results.md: {{" + expression + "}} is no number");
+  return numbers(expression.substr(0, colon), expression.substr(colon + 2))
+      .value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+std::map<std::string, double> comparison_numbers(std::span<const CompareRow> rows) {
+  constexpr double shift = 1e-5;
+  std::map<std::string, double> numbers;
+  const double unsolved = std::log(limit_of(rows) + shift) - 1e-12;
+  for (const TriedCases& tried : tried_cases(rows, shift)) {
+    const Eigen::MatrixXd& times = tried.log_seconds;
+    if (tried.start != StartKind::cold || times.rows() == 0) continue;
+    for (Eigen::Index s = 0; s < times.cols(); ++s) {
+      const std::string name =
+          tried.solvers[static_cast<size_t>(s)] + printed(" to %g, ", tried.tolerance);
+      numbers[name + "solved"] = 100.0 * (times.col(s).array() < unsolved).cast<double>().mean();
+      if (times.cols() == 1) continue;
+      Eigen::MatrixXd others = times;
+      others.col(s).setConstant(HUGE_VAL);
+      numbers[name + "beside the others"] =
+          std::exp((times.col(s) - others.rowwise().minCoeff()).mean());
+    }
+  }
+  return numbers;
+}
+
+constexpr const char* other_program = "milliseconds.txt";
+
+void run_beside(const std::string& command, const fs::path& folder) {
+  const ProgramResult result = run_program("/bin/sh", {"-c", command}, /*seconds=*/3600.0);
+  const std::vector<std::string> words = words_of(trimmed(result.output));
+  const auto number = words.empty() ? std::nullopt : parsed<double>(words.back());
+  if (!result.succeeded() || !number)
+    throw Error("bench all: '" + command + "' failed, or its last word is no number");
+  write_whole_file(folder / other_program, printed("%.17g\n", *number));
+}
+
+/// False: interrupted.
+bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
+  const fs::path folder = folder_of(stage, turn), mark = folder / "measured_by";
+  const std::string key = content_key(binary_key() + options.beside + command_of(stage)) + "\n";
+  if (is_there(mark)) {
+    if (read_whole_file(mark) == key) return true;
+    fs::remove_all(folder);  // of another program or command
+  }
+  std::cout << folder.string() << ": " << command_of(stage) << std::endl;
+  create_folder(folder);
+  if (stage.words.empty()) {
+    run_beside(options.beside, folder);
+  } else {
+    std::vector<std::string> words = stage.words;
+    words.insert(words.end(), {"--output", folder.string()});
+    const fs::path log = fs::path(stage.name) / printed("%d.log", turn);
+    const auto child = start_program(own_program(), words, log);
+    while (!child->ends_within(0.2))
+      if (InterruptGuard::requested()) child->send(SIGTERM);
+    if (InterruptGuard::requested()) return false;
+    if (child->status() != 0)
+      throw Error("bench all: " + stage.name + " failed: " + last_line(log) + " (" + log.string() +
+                  ")");
+  }
+  write_whole_file(mark, key);
+  return true;
+}
+
+/// Medians over the turns that are there.
+StageNumbers numbers_of(const BenchPage& page) {
+  std::map<std::string, std::map<std::string, std::vector<double>>> all;
+  for (const BenchStage& stage : page.stages)
+    for (int turn = 1; turn <= stage.turns; ++turn)
+      if (const fs::path folder = folder_of(stage, turn); is_there(folder / "measured_by"))
+        for (const auto& [name, value] : read_stage(stage, folder))
+          all[stage.name][name].push_back(value);
+  return [all = std::move(all)](const std::string& stage,
+                                const std::string& name) -> std::optional<double> {
+    const auto measured = all.find(stage);
+    if (measured == all.end()) return std::nullopt;  // another program, and there is none
+    const auto values = measured->second.find(name);
+    if (values == measured->second.end())
+      throw Error("results.md: " + stage + " measures no '" + name + "'");
+    return measurement_of("", name, "", values->second).median;
+  };
+}
+
+std::map<std::string, std::string> read_rows(const fs::path& file) {
+  std::map<std::string, std::string> numbers;
+  CsvReader rows(file);
+  for (rows.next(); rows.next();) {
+    rows.require_cells(2);
+    numbers[rows.cells()[0]] = rows.cells()[1];
+  }
+  return numbers;
+}
+
+void write_page(const BenchPage& page, const std::map<std::string, std::string>& numbers) {
+  CsvWriter rows;
+  rows.add_row(std::vector<std::string>{"number", "value"});
+  for (const auto& [name, value] : numbers) rows.add_row(std::vector<std::string>{name, value});
+  create_folder("measured");
+  write_whole_file("measured/numbers.csv", rows.take());
+  write_whole_file("results.md", filled_page(page, numbers));
+  for (const BenchStage& stage : page.stages)
+    if (const fs::path figure = folder_of(stage, 1) / "accuracy.svg"; is_there(figure))
+      write_whole_file("measured/work_precision.svg", read_whole_file(figure));
+}
+
+}  // namespace
+
+BenchPage read_bench_page(std::string_view file) {
+  const std::string_view begin = "<!--\n", end = "-->\n";
+  const size_t close = file.find(end);
+  if (!file.starts_with(begin) || close == std::string_view::npos)
+    throw Error("results.md: does not begin with its stages");
+  BenchPage page;
+  for (const std::string& line : split(file.substr(begin.size(), close - begin.size()), '\n'))
+    if (!trimmed(line).empty()) page.stages.push_back(stage_of(line));
+  page.text = file.substr(close + end.size());
+  return page;
+}
+
+std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path& folder) {
+  std::map<std::string, double> numbers;
+  if (stage.words.empty()) {
+    numbers["step"] = parsed<double>(trimmed(read_whole_file(folder / other_program))).value();
+  } else if (stage.words[0] == "bench") {
+    for (const Measurement& m :
+         read_bench_result(folder / (stage.words.at(1) + ".json")).measurements)
+      numbers[m.full_name()] = m.median;
+  } else if (stage.words[0] == "run") {
+    numbers = Manifest::read(folder / "manifest.json").summary_numbers();
+  } else if (is_there(folder / "manifest.json")) {
+    numbers = comparison_numbers(read_comparison(folder).rows);
+  }
+  return numbers;
+}
+
+std::map<std::string, std::string> page_numbers(const BenchPage& page,
+                                                const StageNumbers& numbers) {
+  const Manifest here("bench all", own_words(), "");
+  std::map<std::string, std::string> result{{"date", here.started().substr(0, 10)},
+                                            {"machine", here.machine()},
+                                            {"commit", here.commit().substr(0, 12)}};
+  replaced(page.text, [&](const std::string& words) {
+    const bool is_known =
+        result.contains(words) ||
+        std::ranges::find(page.stages, words, &BenchStage::name) != page.stages.end();
+    if (is_known) return "";
+    const double value = value_of(words, numbers);
+    if (!std::isnan(value))
+      result[words] = shown(
+          value, words.find(" over ") != std::string::npos || words.ends_with("beside the others"));
+    return "";
+  });
+  return result;
+}
+
+std::string filled_page(const BenchPage& page, const std::map<std::string, std::string>& numbers) {
+  return replaced(page.text, [&](const std::string& words) -> std::string {
+    const auto stage = std::ranges::find(page.stages, words, &BenchStage::name);
+    if (stage != page.stages.end()) return command_of(*stage);
+    const auto number = numbers.find(words);
+    return number == numbers.end() ? "–" : number->second;
+  });
+}
+
+ExitCode bench_all(const BenchAll& options) {
+  const BenchPage page =
+      read_bench_page(options.page.empty() ? bench_page_text() : read_whole_file(options.page));
+  std::map<std::string, std::string> kept;
+  if (!options.rows.empty()) kept = read_rows(options.rows);
+  create_folder(options.output);
+  fs::current_path(options.output);
+  if (!options.rows.empty()) {
+    write_page(page, kept);
+    return ExitCode::ok;
+  }
+  const InterruptGuard guard;
+  const int most = std::ranges::max(page.stages, {}, &BenchStage::turns).turns;
+  for (int turn = 1; turn <= most; ++turn)
+    for (const BenchStage& stage : page.stages) {
+      if (turn > stage.turns || (stage.words.empty() && options.beside.empty())) continue;
+      if (!run_stage(stage, options, turn))
+        throw Error("bench all: interrupted; the same command goes on");
+    }
+  write_page(page, page_numbers(page, numbers_of(page)));
+  std::cout << "results in " << options.output.string() << ": results.md, measured/" << std::endl;
+  return ExitCode::ok;
+}
+
+}  // namespace ballast

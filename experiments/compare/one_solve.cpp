@@ -1,0 +1,191 @@
+#include "experiments/compare/one_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include <sys/resource.h>
+
+#include "platform/clock.hpp"
+#include "platform/error.hpp"
+#include "platform/pack.hpp"
+#include "platform/program.hpp"
+
+namespace ballast {
+namespace {
+
+/// What the process that solves says: its share of the row, and what the judge needs.
+struct Account {
+  CompareRow row;
+  Solved solved;  ///< reason and impulses; row.reason is the name of the first, or empty
+};
+
+/// Of this process or of the largest one that it waited for [MB].
+double peak_memory() {
+  double peak = 0.0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    peak = std::max(peak, static_cast<double>(usage.ru_maxrss) / 1024.0);
+  }
+  return peak;
+}
+
+SolverRun drive(Solver& solver, const LoadedCase& loaded, const SolveLimits& limits,
+                const CompareRow& row) {
+  Budget budget{.tolerance = row.tolerance * loaded.facts.velocity_scale,
+                .max_iterations = limits.max_iterations,
+                .max_seconds = row.max_seconds,
+                .keep_history = true};
+  std::optional<FclibStop> fclib;
+  if (row.measure == Measure::fclib) {
+    budget.fclib = &fclib.emplace(loaded.problem, row.tolerance);
+    budget.tolerance = 0.0;  // the natural map has no say
+  }
+  const Impulses from = row.start == StartKind::warm ? loaded.warm_start : Impulses();
+  return SolverRunner().run(solver, loaded.problem, from, budget);
+}
+
+/// A new solver for each run: nothing is carried over but caches.
+void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                      Account& account) {
+  CompareRow& row = account.row;
+  double spent = 0.0;
+  do {
+    const Stopwatch watch;
+    const std::unique_ptr<Solver> solver = make();
+    const double making = watch.seconds();
+    SolverRun run = drive(*solver, loaded, limits, row);
+    const double seconds = run.prepare_seconds + run.solve_seconds;
+    // What is loaded and started once is seen in the first run alone.
+    if (row.runs == 0) row.startup_seconds = making + run.startup_seconds;
+    const bool is_fastest = row.runs == 0 || seconds < row.seconds();
+    ++row.runs;
+    spent += watch.seconds();
+    if (!is_fastest) continue;
+    row.reason = run.failure.empty() ? name_of(run.solved.reason) : "";
+    row.note = run.failure;
+    if (run.failure == std::bad_alloc().what()) row.verdict = Verdict::out_of_memory;
+    row.iterations = run.solved.iterations;
+    row.prepare_seconds = run.prepare_seconds;
+    row.solve_seconds = run.solve_seconds;
+    row.history = std::move(run.solved.history);
+    for (HistoryPoint& point : row.history) point.error /= loaded.facts.velocity_scale;
+    account.solved = std::move(run.solved);
+  } while (account.solved.reason == StopReason::reached_tolerance && row.runs < limits.most_runs &&
+           spent + row.seconds() < limits.warm_seconds);
+}
+
+/// The whole of what the child does.
+Account solve_here(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                   const CompareRow& row) {
+  Account account{row, {}};
+  account.row.verdict = Verdict::unsolved;
+  try {
+    drive_repeatedly(make, loaded, limits, account);
+  } catch (const UnsupportedProblem& error) {
+    account.row.verdict = Verdict::unsupported;
+    account.row.note = error.what();
+  } catch (const LostProcess& error) {
+    account.row.verdict = error.is_out_of_time ? Verdict::timeout : Verdict::crashed;
+    account.row.note = error.what();
+  } catch (const std::bad_alloc&) {
+    account.row.verdict = Verdict::out_of_memory;
+  } catch (const std::exception& error) {
+    account.row.note = error.what();
+  }
+  return account;
+}
+
+/// A row without an answer has no error, not a small one.
+void clear_measures(CompareRow& row) {
+  row.error = row.natural_map_rms = row.natural_map_max = row.fclib = std::nan("");
+}
+
+/// The judge's measures of an answer, and what they and the backend's word come to.
+void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
+  clear_measures(row);
+  const Impulses& impulses = account.solved.impulses;
+  const StopReason reason = account.solved.reason;
+  if (impulses.size() != loaded.problem.row_count()) return;
+  const double scale = loaded.facts.velocity_scale;
+  SolverRun run;
+  run.solved = account.solved;
+  run.error = contact_error(loaded.problem, impulses);
+  const ContactError& error = run.error;
+  row.natural_map_rms = error.natural_map_rms;
+  row.natural_map_max = error.natural_map_max;
+  row.fclib = error.fclib;
+  row.cone_violation = error.cone_violation;
+  row.min_normal_velocity = error.min_normal_velocity;
+  row.worst = loaded.describe_contact(error.worst_contact);
+  row.distance = answer_distance(loaded.problem, impulses, loaded.exact, scale);
+  const bool by_fclib = row.measure == Measure::fclib;
+  row.error = by_fclib ? error.fclib : error.natural_map_rms / scale;
+  if (row.reason.empty()) return;
+  run.verdict =
+      verdict_of(reason, error, by_fclib ? row.tolerance : row.tolerance * scale, by_fclib);
+  const std::string words = explained(loaded.problem, run, row.tolerance * scale);
+  row.verdict = run.verdict;
+  // What the natural map misses is no reason where another measure was asked for.
+  if (row.verdict == Verdict::no_solution || (row.verdict == Verdict::denied && !by_fclib))
+    row.note = words;
+  const bool is_late = row.seconds() > row.max_seconds;
+  if ((row.verdict == Verdict::solved && is_late) ||
+      (row.verdict == Verdict::unsolved && (is_late || reason == StopReason::time_limit)))
+    row.verdict = Verdict::timeout;
+}
+
+}  // namespace
+
+void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const SolveLimits& limits,
+                CompareRow& row) {
+  if (!solver.external_key.empty()) {
+    const Stopwatch watch;
+    Account account = solve_here(solver.make, loaded, limits, row);
+    row = std::move(account.row);
+    row.peak_memory_MB = std::nan("");
+    if (row.verdict == Verdict::timeout) row.solve_seconds = watch.seconds();
+    return judge(loaded, account, row);
+  }
+  // Backends look at the clock between iterations, prepare() never does: some grace before the
+  // child is killed.
+  const double most_seconds = 1.25 * row.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
+  const ChildResult child = run_in_child(most_seconds, [&] {
+    const auto bytes = static_cast<rlim_t>(limits.memory_MB * 1048576.0);
+    const rlimit limit{bytes, bytes};
+    if (bytes > 0) setrlimit(RLIMIT_AS, &limit);
+    Account account = solve_here(solver.make, loaded, limits, row);
+    account.row.peak_memory_MB = peak_memory();
+    Packer packer;
+    packer.text(to_json(account.row));
+    packer.number(account.solved.reason);
+    packer.list(account.solved.impulses);
+    return packer.bytes();
+  });
+  if (child.end != ChildEnd::complete) {
+    const bool is_late = child.end == ChildEnd::out_of_time;
+    clear_measures(row);
+    row.verdict = is_late ? Verdict::timeout : Verdict::crashed;
+    row.note = is_late ? "killed: did not stop at the time limit" : "the child process died";
+    row.solve_seconds = is_late ? most_seconds : 0.0;
+    return;
+  }
+  const std::string origin = "ballast compare: a child's answer";
+  Account account;
+  std::string text;
+  Unpacker unpacker(child.answer, origin);
+  unpacker.text(text);
+  unpacker.number(account.solved.reason);
+  unpacker.list(account.solved.impulses);
+  unpacker.finish();
+  account.row = compare_row_of_json(text, origin);
+  account.row.word = row.word;
+  account.row.can_view = row.can_view;
+  row = std::move(account.row);
+  judge(loaded, account, row);
+}
+
+}  // namespace ballast
