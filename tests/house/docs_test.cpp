@@ -157,6 +157,20 @@ TEST_CASE("every page is a few links from README.md") {
   }
 }
 
+TEST_CASE("every number in README's table of results is one of the page of results") {
+  const std::string readme = content(root() / "README.md"),
+                    results = content(root() / "docs/results.md");
+  const size_t begin = readme.find("\n## Results\n"), end = readme.find("\n## ", begin + 1);
+  REQUIRE(begin != std::string::npos);
+  int rows = 0;
+  for (const std::string& line : lines_of(readme.substr(begin, end - begin)))
+    if (line.starts_with("| ")) {
+      CHECK_THAT(results, Catch::Contains(line));
+      ++rows;
+    }
+  CHECK(rows > 3);
+}
+
 TEST_CASE("docs/house/design.md has a row for every room") {
   const std::string design = content(root() / "docs" / "house" / "design.md");
   for (const auto& [room, ignored] : doors()) {
