@@ -26,6 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of what the page says; bench_all() puts the file's name before it.
+struct PageError final : Error {
+  using Error::Error;
+};
+
 std::string trimmed(std::string_view text) {
   const size_t first = text.find_first_not_of(" \n"), last = text.find_last_not_of(" \n");
   return first == std::string_view::npos ? "" : std::string(text.substr(first, last - first + 1));
@@ -53,10 +58,11 @@ BenchStage stage_of(const std::string& line) {
   const size_t colon = line.find(": ");
   const std::vector<std::string> head = words_of(line.substr(0, colon));
   const auto turns = head.size() == 2 ? parsed<int>(head[1].substr(1)) : std::nullopt;
-  if (colon == std::string::npos || !turns || head[1][0] != 'x' || *turns < 1)
-    throw Error("results.md: '" + line + "': expected NAME xTURNS: WORDS");
+  if (colon == std::string::npos || !turns || head[1][0] != 'x' || *turns < 1 ||
+      !is_plain(head[0], "_-"))
+    throw PageError("'" + line + "': expected NAME xTURNS: WORDS");
   const std::vector<std::string> words = words_of(line.substr(colon + 2));
-  if (words.empty()) throw Error("results.md: '" + line + "': has no command");
+  if (words.empty()) throw PageError("'" + line + "': has no command");
   return {head[0], *turns, words.front() == "beside" ? std::vector<std::string>() : words};
 }
 
@@ -81,7 +87,7 @@ std::string replaced(std::string_view text,
     const size_t open = text.find("{{"), close = text.find("}}", open);
     result.append(text.substr(0, open));
     if (open == std::string_view::npos) return result;
-    if (close == std::string_view::npos) throw Error("results.md: {{ without }}");
+    if (close == std::string_view::npos) throw PageError("{{ without }}");
     result += value(std::string(text.substr(open + 2, close - open - 2)));
     text.remove_prefix(close + 2);
   }
@@ -100,7 +106,7 @@ double value_of(const std::string& expression, const StageNumbers& numbers) {
            value_of(expression.substr(over + 6), numbers);
   if (const auto number = parsed<double>(expression)) return *number;
   const size_t colon = expression.find(": ");
-  if (colon == std::string::npos) throw Error("results.md: {{" + expression + "}} is no number");
+  if (colon == std::string::npos) throw PageError("{{" + expression + "}} is no number");
   return numbers(expression.substr(0, colon), expression.substr(colon + 2))
       .value_or(std::numeric_limits<double>::quiet_NaN());
 }
@@ -179,7 +185,7 @@ StageNumbers numbers_of(const BenchPage& page) {
     if (measured == all.end()) return std::nullopt;  // another program, and there is none
     const auto values = measured->second.find(name);
     if (values == measured->second.end())
-      throw Error("results.md: " + stage + " measures no '" + name + "'");
+      throw PageError(stage + " measures no '" + name + "'");
     return measurement_of("", name, "", values->second).median;
   };
 }
@@ -212,10 +218,11 @@ BenchPage read_bench_page(std::string_view file) {
   const std::string_view begin = "<!--\n", end = "-->\n";
   const size_t close = file.find(end);
   if (!file.starts_with(begin) || close == std::string_view::npos)
-    throw Error("results.md: does not begin with its stages");
+    throw PageError("does not begin with its stages");
   BenchPage page;
   for (const std::string& line : split(file.substr(begin.size(), close - begin.size()), '\n'))
     if (!trimmed(line).empty()) page.stages.push_back(stage_of(line));
+  if (page.stages.empty()) throw PageError("has no stages");
   page.text = file.substr(close + end.size());
   return page;
 }
@@ -265,17 +272,15 @@ std::string filled_page(const BenchPage& page, const std::map<std::string, std::
   });
 }
 
-ExitCode bench_all(const BenchAll& options) {
-  const BenchPage page =
-      read_bench_page(options.page.empty() ? bench_page_text() : read_whole_file(options.page));
+namespace {
+
+void measure_page(const BenchAll& options, std::string_view text) {
+  const BenchPage page = read_bench_page(text);
   std::map<std::string, std::string> kept;
   if (!options.rows.empty()) kept = read_rows(options.rows);
   create_folder(options.output);
   fs::current_path(options.output);
-  if (!options.rows.empty()) {
-    write_page(page, kept);
-    return ExitCode::ok;
-  }
+  if (!options.rows.empty()) return write_page(page, kept);
   const InterruptGuard guard;
   const int most = std::ranges::max(page.stages, {}, &BenchStage::turns).turns;
   for (int turn = 1; turn <= most; ++turn)
@@ -285,6 +290,17 @@ ExitCode bench_all(const BenchAll& options) {
         throw Error("bench all: interrupted; the same command goes on");
     }
   write_page(page, page_numbers(page, numbers_of(page)));
+}
+
+}  // namespace
+
+ExitCode bench_all(const BenchAll& options) {
+  const bool is_own = !options.page.empty();
+  try {
+    measure_page(options, is_own ? read_whole_file(options.page) : bench_page_text());
+  } catch (const PageError& error) {
+    throw Error((is_own ? options.page.string() : "results.md") + ": " + error.what());
+  }
   std::cout << "results in " << options.output.string() << ": results.md, measured/" << std::endl;
   return ExitCode::ok;
 }

@@ -21,8 +21,9 @@ struct BenchStage {
   std::vector<std::string> words;  ///< of this program; none: another one, BenchAll::beside
 };
 
-/// results.md, built into the program: a comment with a line "NAME xTURNS: WORDS" for each stage,
-/// then the page. `{{NAME}}` in it stands for the stage's command, `{{EXPRESSION}}` for a number:
+/// results.md, built into the program, or a file like it: a comment with a line "NAME xTURNS:
+/// WORDS" for each stage, then the page. `{{NAME}}` in it stands for the stage's command,
+/// `{{EXPRESSION}}` for a number:
 ///   STAGE: MEASUREMENT         median over the turns of what read_stage() knows
 ///   EXPRESSION over EXPRESSION their ratio; a plain number is an expression too
 /// and `{{date}}`, `{{machine}}`, `{{commit}}` for where and when it was measured.

@@ -113,9 +113,12 @@ TEST_CASE("a page of results that cannot be measured says why") {
   };
   CHECK(complaint("<!--\nother x1: beside\n-->\n{{other: step}}\n").status == 0);  // no --beside
   CHECK(read_whole_file(folder.path() / "all" / "results.md") == "–\n");
-  check_failure(complaint("no stages\n"), ExitCode::failure, {"does not begin with its stages"});
+  check_failure(complaint("no stages\n"), ExitCode::failure,
+                {"page.md: does not begin with its stages"});
   check_failure(complaint("<!--\nlist solvers\n-->\n"), ExitCode::failure,
                 {"'list solvers'", "expected NAME xTURNS: WORDS"});
+  check_failure(complaint("<!--\n-->\n"), ExitCode::failure, {"has no stages"});
+  check_failure(complaint("<!--\n../list x1: solvers\n-->\n"), ExitCode::failure, {"'../list x1"});
   check_failure(complaint("<!--\nlist x1: solvers --nothing\n-->\n"), ExitCode::failure,
                 {"list failed", "list/1.log"});
   check_failure(
