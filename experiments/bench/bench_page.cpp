@@ -184,8 +184,7 @@ StageNumbers numbers_of(const BenchPage& page) {
     const auto measured = all.find(stage);
     if (measured == all.end()) return std::nullopt;  // another program, and there is none
     const auto values = measured->second.find(name);
-    if (values == measured->second.end())
-      throw PageError(stage + " measures no '" + name + "'");
+    if (values == measured->second.end()) throw PageError(stage + " measures no '" + name + "'");
     return measurement_of("", name, "", values->second).median;
   };
 }
