@@ -104,17 +104,20 @@ class Browser {
     std::array<int, 2> to{}, from{};
     if (pipe2(to.data(), O_CLOEXEC) != 0 || pipe2(from.data(), O_CLOEXEC) != 0)
       throw std::runtime_error("no pipe");
-    std::vector<std::string> words{program,
-                                   "--headless=new",
-                                   "--no-sandbox",
-                                   "--disable-dev-shm-usage",  // it is small in a container
-                                   "--remote-debugging-pipe",
-                                   "--use-angle=swiftshader",
-                                   "--enable-unsafe-swiftshader",
-                                   "--ignore-gpu-blocklist",
-                                   "--hide-scrollbars",
-                                   "--disable-background-networking",
-                                   "--user-data-dir=" + profile_.path().string()};
+    std::vector<std::string> words{
+        program,
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-dev-shm-usage",  // it is small in a container
+        "--remote-debugging-pipe",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+        "--ignore-gpu-blocklist",
+        "--disable-gpu-rasterization",      // 2D on the processor: no
+        "--disable-accelerated-2d-canvas",  // detour by a GPU in software
+        "--hide-scrollbars",
+        "--disable-background-networking",
+        "--user-data-dir=" + profile_.path().string()};
     words.insert(words.end(), switches.begin(), switches.end());
     child_.emplace([&] {
       // the browser reads from 3 and writes to 4, wherever the pipes are now
