@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <functional>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "experiments/bench/measurement.hpp"
 #include "experiments/compare/comparison.hpp"
@@ -30,6 +35,29 @@ namespace fs = std::filesystem;
 struct PageError final : Error {
   using Error::Error;
 };
+
+/// A command whose results the page shows. It is run so many times, by turns with the others, each
+/// time into a folder of its own, "NAME/TURN".
+struct BenchStage {
+  std::string name;
+  int turns = 1;
+  std::vector<std::string> words;  ///< of this program; none: another one, BenchAll::beside
+};
+
+/// results.md, built into the program, or a file like it: a comment with a line "NAME xTURNS:
+/// WORDS" for each stage, then the page. `{{NAME}}` in it stands for the stage's command,
+/// `{{EXPRESSION}}` for a number:
+///   STAGE: MEASUREMENT         median over the turns of what read_stage() knows
+///   EXPRESSION over EXPRESSION their ratio; a plain number is an expression too
+/// and `{{date}}`, `{{machine}}`, `{{commit}}` for where and when it was measured.
+struct BenchPage {
+  std::vector<BenchStage> stages;
+  std::string text;
+};
+
+/// A number of a stage by its name; nothing where it was not measured.
+using StageNumbers =
+    std::function<std::optional<double>(const std::string& stage, const std::string& name)>;
 
 std::string trimmed(std::string_view text) {
   const size_t first = text.find_first_not_of(" \n"), last = text.find_last_not_of(" \n");
@@ -64,6 +92,20 @@ BenchStage stage_of(const std::string& line) {
   const std::vector<std::string> words = words_of(line.substr(colon + 2));
   if (words.empty()) throw PageError("'" + line + "': has no command");
   return {head[0], *turns, words.front() == "beside" ? std::vector<std::string>() : words};
+}
+
+/// Throws PageError: no stages, one that cannot be read.
+BenchPage read_bench_page(std::string_view file) {
+  const std::string_view begin = "<!--\n", end = "-->\n";
+  const size_t close = file.find(end);
+  if (!file.starts_with(begin) || close == std::string_view::npos)
+    throw PageError("does not begin with its stages");
+  BenchPage page;
+  for (const std::string& line : split(file.substr(begin.size(), close - begin.size()), '\n'))
+    if (!trimmed(line).empty()) page.stages.push_back(stage_of(line));
+  if (page.stages.empty()) throw PageError("has no stages");
+  page.text = file.substr(close + end.size());
+  return page;
 }
 
 fs::path folder_of(const BenchStage& stage, int turn) {
@@ -143,6 +185,26 @@ void run_beside(const std::string& command, const fs::path& folder) {
   write_whole_file(folder / other_program, printed("%.17g\n", *number));
 }
 
+/// What the folder of a stage holds, by name: medians of a bench's measurements ("1 thread,
+/// all/step"), numbers of a run's summary ("drive_seconds"), and of a comparison from cold starts
+/// "auto to 0.0001, solved" [%] and "auto to 0.0001, beside the others", the geometric mean over
+/// cases of its time over the fastest other backend's, both 10 us longer. Throws Error.
+std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path& folder) {
+  std::map<std::string, double> numbers;
+  if (stage.words.empty()) {
+    numbers["step"] = parsed<double>(trimmed(read_whole_file(folder / other_program))).value();
+  } else if (stage.words[0] == "bench") {
+    for (const Measurement& m :
+         read_bench_result(folder / (stage.words.at(1) + ".json")).measurements)
+      numbers[m.full_name()] = m.median;
+  } else if (stage.words[0] == "run") {
+    numbers = Manifest::read(folder / "manifest.json").summary_numbers();
+  } else if (is_there(folder / "manifest.json")) {
+    numbers = comparison_numbers(read_comparison(folder).rows);
+  }
+  return numbers;
+}
+
 /// False: interrupted.
 bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
   const fs::path folder = folder_of(stage, turn), mark = folder / "measured_by";
@@ -189,6 +251,38 @@ StageNumbers numbers_of(const BenchPage& page) {
   };
 }
 
+/// Every number that stands between {{ and }}, by those words. Throws Error naming an expression
+/// that cannot be read.
+std::map<std::string, std::string> page_numbers(const BenchPage& page,
+                                                const StageNumbers& numbers) {
+  const Manifest here("bench all", own_words(), "");
+  std::map<std::string, std::string> result{{"date", here.started().substr(0, 10)},
+                                            {"machine", here.machine()},
+                                            {"commit", here.commit().substr(0, 12)}};
+  replaced(page.text, [&](const std::string& words) {
+    const bool is_known =
+        result.contains(words) ||
+        std::ranges::find(page.stages, words, &BenchStage::name) != page.stages.end();
+    if (is_known) return "";
+    const double value = value_of(words, numbers);
+    if (!std::isnan(value))
+      result[words] = shown(
+          value, words.find(" over ") != std::string::npos || words.ends_with("beside the others"));
+    return "";
+  });
+  return result;
+}
+
+/// The page with numbers and commands put in; "–" for a number that there is not.
+std::string filled_page(const BenchPage& page, const std::map<std::string, std::string>& numbers) {
+  return replaced(page.text, [&](const std::string& words) -> std::string {
+    const auto stage = std::ranges::find(page.stages, words, &BenchStage::name);
+    if (stage != page.stages.end()) return command_of(*stage);
+    const auto number = numbers.find(words);
+    return number == numbers.end() ? "–" : number->second;
+  });
+}
+
 std::map<std::string, std::string> read_rows(const fs::path& file) {
   std::map<std::string, std::string> numbers;
   CsvReader rows(file);
@@ -210,68 +304,6 @@ void write_page(const BenchPage& page, const std::map<std::string, std::string>&
     if (const fs::path figure = folder_of(stage, 1) / "accuracy.svg"; is_there(figure))
       write_whole_file("measured/work_precision.svg", read_whole_file(figure));
 }
-
-}  // namespace
-
-BenchPage read_bench_page(std::string_view file) {
-  const std::string_view begin = "<!--\n", end = "-->\n";
-  const size_t close = file.find(end);
-  if (!file.starts_with(begin) || close == std::string_view::npos)
-    throw PageError("does not begin with its stages");
-  BenchPage page;
-  for (const std::string& line : split(file.substr(begin.size(), close - begin.size()), '\n'))
-    if (!trimmed(line).empty()) page.stages.push_back(stage_of(line));
-  if (page.stages.empty()) throw PageError("has no stages");
-  page.text = file.substr(close + end.size());
-  return page;
-}
-
-std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path& folder) {
-  std::map<std::string, double> numbers;
-  if (stage.words.empty()) {
-    numbers["step"] = parsed<double>(trimmed(read_whole_file(folder / other_program))).value();
-  } else if (stage.words[0] == "bench") {
-    for (const Measurement& m :
-         read_bench_result(folder / (stage.words.at(1) + ".json")).measurements)
-      numbers[m.full_name()] = m.median;
-  } else if (stage.words[0] == "run") {
-    numbers = Manifest::read(folder / "manifest.json").summary_numbers();
-  } else if (is_there(folder / "manifest.json")) {
-    numbers = comparison_numbers(read_comparison(folder).rows);
-  }
-  return numbers;
-}
-
-std::map<std::string, std::string> page_numbers(const BenchPage& page,
-                                                const StageNumbers& numbers) {
-  const Manifest here("bench all", own_words(), "");
-  std::map<std::string, std::string> result{{"date", here.started().substr(0, 10)},
-                                            {"machine", here.machine()},
-                                            {"commit", here.commit().substr(0, 12)}};
-  replaced(page.text, [&](const std::string& words) {
-    const bool is_known =
-        result.contains(words) ||
-        std::ranges::find(page.stages, words, &BenchStage::name) != page.stages.end();
-    if (is_known) return "";
-    const double value = value_of(words, numbers);
-    if (!std::isnan(value))
-      result[words] = shown(
-          value, words.find(" over ") != std::string::npos || words.ends_with("beside the others"));
-    return "";
-  });
-  return result;
-}
-
-std::string filled_page(const BenchPage& page, const std::map<std::string, std::string>& numbers) {
-  return replaced(page.text, [&](const std::string& words) -> std::string {
-    const auto stage = std::ranges::find(page.stages, words, &BenchStage::name);
-    if (stage != page.stages.end()) return command_of(*stage);
-    const auto number = numbers.find(words);
-    return number == numbers.end() ? "–" : number->second;
-  });
-}
-
-namespace {
 
 void measure_page(const BenchAll& options, std::string_view text) {
   const BenchPage page = read_bench_page(text);
