@@ -137,6 +137,7 @@ BALLAST_FOR_EACH_CPU void find_measures(JudgeBlock& b, int places) {
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double rounding = std::numeric_limits<double>::epsilon();
 
 /// Measures that are sums of squares until their roots are taken, and those that are largest
 /// values.
@@ -380,7 +381,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   ContactError error = gather(contacts);
   // Siconos' measure, the scale of velocities, the power.
   const double free_norm = q_.norm(), scale = std::max({free_norm, r.norm(), u_.norm()});
-  if (scale > std::numeric_limits<double>::epsilon()) error.fclib /= scale;
+  if (scale > rounding) error.fclib /= scale;
   error.velocity_scale = free_norm / std::sqrt(static_cast<double>(q_.size()));
   error.power = r.dot(u_);
   if (problem.has_dynamics) {
@@ -391,6 +392,35 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   if (!std::isfinite(error.natural_map_rms + error.approach_rms + error.cone_rms + scale))
     return infinite_error();
   return error;
+}
+
+double ContactJudge::fclib(const FrictionProblem& problem, const Impulses& r, double& free_norm) {
+  require_rows(r, problem.row_count());
+  const bool is_first = free_norm < 0.0, is_free = r.isZero(0.0);
+  if (is_first || is_free) {
+    free_contact_velocity(problem, u_);
+    free_norm = u_.norm();
+  }
+  if (problem.has_dynamics && !is_free) {
+    recompute_body_velocities(problem.dynamics, problem.row_begin, r);
+    body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, u_);
+  } else if (!is_free) {
+    contact_velocity(problem, r, u_);
+  }
+  double squares = 0.0;
+  for (int c = 0; c < problem.contact_count(); ++c) {
+    const int i = problem.row_begin[c];
+    const bool has_tangents = problem.contact_rows(c) == 3;
+    const auto triple = [=](const Eigen::VectorXd& x) {
+      return Triple{x[i], has_tangents ? x[i + 1] : 0.0, has_tangents ? x[i + 2] : 0.0};
+    };
+    const Triple u = triple(u_), modified{u.n + problem.friction[c] * tangential(u), u.t, u.s};
+    const Triple map = natural_map_of_modified(triple(r), modified, problem.friction[c], 1.0);
+    squares += dot(map, map);
+  }
+  const double scale = std::max({free_norm, r.norm(), u_.norm()});
+  const double measure = std::sqrt(squares) / (scale > rounding ? scale : 1.0);
+  return std::isfinite(measure) ? measure : infinity;
 }
 
 ContactError contact_error(const FrictionProblem& problem, const Impulses& r) {

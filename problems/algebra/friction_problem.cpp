@@ -488,6 +488,7 @@ void KnownMasses::keep(const DynamicsForm& dynamics) {
   dof_begin_ = dynamics.dof_begin;
   mass_begin_ = dynamics.mass_begin;
   mass_.clear();
+  mass_.reserve(dynamics.dof_begin.back());
   for (int b = 0; b < dynamics.body_count(); ++b) {
     const int dofs = roots_[b].dofs, step = roots_[b].diagonal ? dofs + 1 : 1;
     for (int k = 0; k < dofs * dofs; k += step) mass_.push_back(dynamics.mass[mass_begin_[b] + k]);

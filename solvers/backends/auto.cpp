@@ -33,16 +33,18 @@ class Auto final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     const bool is_scarce = budget.max_iterations <= few_iterations;
-    const double step = is_scarce              ? 1.0
-                        : problem.has_dynamics ? sweeps_of_step(problem.contact_count())
-                                               : stored_step(problem);
+    const double step = is_scarce ? 1.0
+                        : problem.has_dynamics
+                            ? std::max(first_step, sweeps_of_step(problem.contact_count()))
+                            : stored_step(problem);
     Way& newton = problem.has_dynamics && !is_scarce ? burst_ : proximal_;
 
     Course course(budget, std::move(start));
     if (course.best().isZero(0.0) && nothing_presses(problem)) course.offer(course.best(), 0.0);
     if (course.over()) return course.finish();
+    SlowSweeps slow(step, 0.25 * budget.max_iterations, budget);
     course.run([&](Impulses first, Budget whole) {
-      whole.gives_up = slow_sweeps(step, 0.25 * budget.max_iterations, budget);
+      whole.gives_up = std::ref(slow);
       return prepared(sweeps_, problem).solve(problem, std::move(first), whole);
     });
     int idle = 0;
@@ -64,8 +66,9 @@ class Auto final : public Solver {
 
   /// No contact closes without impulses, which are then a solution.
   static bool nothing_presses(const FrictionProblem& problem) {
-    Eigen::VectorXd q;
-    free_contact_velocity(problem, q);
+    Eigen::VectorXd made;
+    if (problem.has_dynamics) free_contact_velocity(problem, made);
+    const Eigen::VectorXd& q = problem.has_dynamics ? made : problem.delassus.q;
     for (int c = 0; c < problem.contact_count(); ++c)
       if (!(q[problem.row_begin[c]] >= 0.0)) return false;
     return true;
@@ -83,6 +86,8 @@ class Auto final : public Solver {
   }
 
   static constexpr double first_steps = 40.0;  ///< of Newton's first turn
+  /// Sweeps over few bodies that cost as much as a step: most of it is the order of elimination.
+  static constexpr double first_step = 60.0;
   /// Of so few a sweep is as dear as a factorisation.
   static constexpr int few_iterations = 1000;
 

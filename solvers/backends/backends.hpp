@@ -5,6 +5,8 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "solvers/gauss_seidel/sweep_variant.hpp"
 #include "solvers/parts/contact_equation.hpp"
@@ -43,7 +45,19 @@ std::unique_ptr<Solver> make_nncg();
 /// in a row promise that the rest of the way to budget.aim() costs more than the dozen steps that
 /// mostly bring Newton home. Not before 8 steps' worth, 500 or `at_most` sweeps, whichever is
 /// least. `budget` outlives it.
-std::function<bool(int, double)> slow_sweeps(double step, double at_most, const Budget& budget);
+class SlowSweeps {
+ public:
+  SlowSweeps(double step, double at_most, const Budget& budget);
+  bool operator()(int sweeps, double error);
+
+ private:
+  double left(int sweeps, double error);
+
+  const Budget& budget_;
+  int least_, refusals_ = 0;
+  double most_;
+  std::vector<std::pair<int, double>> looks_;  ///< sweeps, error
+};
 
 /// Sweeps over bodies that cost as much as a step of Newton's method. Measured on packings of 80 to
 /// 8000 contacts.

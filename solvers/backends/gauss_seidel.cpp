@@ -152,11 +152,12 @@ class FletcherReeves final : public SearchRule {
 /// a tenth.
 class SweptChange {
  public:
-  explicit SweptChange(double aim) : aim_(aim) {}
+  /// `is_dear`: a look costs as much as some sweeps.
+  SweptChange(double aim, bool is_dear) : aim_(aim), is_dear_(is_dear) {}
 
   /// After a look at the error [m/s]; `square` of the sweep before it, or of the first of all.
   void seen(int sweeps, double square, double error) {
-    next_ = sweeps + (sweeps > 0 ? apart : 2);
+    next_ = sweeps + (sweeps == 0 ? 2 : is_dear_ ? std::max(apart, sweeps / 16) : apart);
     enough_ = square * (near * aim_ / error) * (near * aim_ / error);
   }
   /// The error is likely to be small enough.
@@ -166,6 +167,7 @@ class SweptChange {
   static constexpr int apart = 4;  // sweeps between two looks, at least
   static constexpr double near = 0.97;
   double aim_, enough_ = -1.0;
+  bool is_dear_;
   int next_ = 0;
 };
 
@@ -191,7 +193,7 @@ class GaussSeidel final : public Solver {
   Solved solve(const FrictionProblem& problem, Impulses r, const Budget& budget) override {
     // The cost of looking at the error stays below about 15 %.
     Iteration iteration(budget, rule_ ? CheckSchedule{8, 1.6, 2.0} : CheckSchedule{4, 1.25});
-    SweptChange change(budget.aim());
+    SweptChange change(budget.aim(), /*is_dear=*/budget.fclib);
     if (rule_) rule_->reset();
     order_.resize(variant_.plain() ? 0 : problem.contact_count());
     std::iota(order_.begin(), order_.end(), 0);
@@ -271,7 +273,7 @@ class GaussSeidel final : public Solver {
     const double error = sweep_->error();
     if (error >= solved.own_residual) return;
     sweep_->store(problem, solved.impulses);
-    solved.own_residual = error;
+    solved.own_residual = solved.end_error = error;
     if (!solved.history.empty()) solved.history.back().error = error;
   }
 
@@ -280,25 +282,6 @@ class GaussSeidel final : public Solver {
   std::unique_ptr<SearchRule> rule_;
   bool returns_best_ = false;
   AnySweep sweep_;
-};
-
-/// How many more sweeps a solve will take. Their error falls about like a power of their number,
-/// whose exponent is small in jams.
-class SweepPace {
- public:
-  /// Takes the error after so many sweeps; how many more until `aim`, by the later half of them.
-  double left(int sweeps, double error, double aim) {
-    looks_.emplace_back(sweeps, error);
-    size_t k = looks_.size() - 1;
-    while (k > 0 && 2 * looks_[k].first > sweeps) --k;
-    const auto& [then, before] = looks_[k];
-    if (!(then > 0 && before > error)) return 1e300;
-    const double exponent = std::log(before / error) / std::log(1.0 * sweeps / then);
-    return sweeps * (std::pow(error / aim, 1.0 / exponent) - 1.0);
-  }
-
- private:
-  std::vector<std::pair<int, double>> looks_;  ///< sweeps, error
 };
 
 }  // namespace
@@ -317,15 +300,29 @@ std::unique_ptr<Solver> make_nncg() {
 
 double sweeps_of_step(int contacts) { return 1.3 * std::sqrt(contacts * std::sqrt(contacts)); }
 
-std::function<bool(int, double)> slow_sweeps(double step, double at_most, const Budget& budget) {
-  const int least = static_cast<int>(std::min({500.0, 8.0 * step, at_most}));
-  const double most = 12.0 * step;
-  return [=, pace = SweepPace(), refusals = 0, &budget](int sweeps, double error) mutable {
-    const double left = pace.left(sweeps, error, budget.aim());
-    // One look may have met the error on its way up.
-    refusals = left > most ? refusals + 1 : 0;
-    return sweeps >= least && refusals > 1;
-  };
+SlowSweeps::SlowSweeps(double step, double at_most, const Budget& budget)
+    : budget_(budget),
+      least_(static_cast<int>(std::min({500.0, 8.0 * step, at_most}))),
+      most_(12.0 * step) {}
+
+bool SlowSweeps::operator()(int sweeps, double error) {
+  // One look may have met the error on its way up.
+  refusals_ = left(sweeps, error) > most_ ? refusals_ + 1 : 0;
+  return sweeps >= least_ && refusals_ > 1;
+}
+
+/// How many more sweeps it takes from this error to the aim. Errors fall about like a power of the
+/// number of sweeps, whose exponent is small in jams: by the later half of them.
+double SlowSweeps::left(int sweeps, double error) {
+  constexpr double unknown = 1e300;
+  if (sweeps == 0) return unknown;
+  looks_.emplace_back(sweeps, error);
+  size_t k = looks_.size() - 1;
+  while (k > 0 && 2 * looks_[k].first > sweeps) --k;
+  const auto& [then, before] = looks_[k];
+  if (2 * then > sweeps || !(before > error)) return unknown;
+  const double exponent = std::log(before / error) / std::log(1.0 * sweeps / then);
+  return sweeps * (std::pow(error / budget_.aim(), 1.0 / exponent) - 1.0);
 }
 
 }  // namespace ballast

@@ -129,9 +129,9 @@ class NewtonBurst final : public Solver {
     problem_ = &problem;
     Course course(budget, std::move(start));
     if (begins_with_sweeps_) {
+      SlowSweeps slow(sweeps_of_step(problem.contact_count()), budget.max_iterations, budget);
       course.run([&](Impulses first, Budget whole) {
-        const double step = sweeps_of_step(problem.contact_count());
-        whole.gives_up = slow_sweeps(step, budget.max_iterations, budget);
+        whole.gives_up = std::ref(slow);
         return sweeps_->solve(problem, std::move(first), whole);
       });
     } else {  // the start itself, without impulses that move nothing

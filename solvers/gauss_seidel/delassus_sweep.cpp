@@ -1,56 +1,139 @@
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
 
+#include <algorithm>
+#include <cstring>
+
+#include "platform/for_each_cpu.hpp"
 #include "problems/algebra/contact_error.hpp"
+#include "solvers/gauss_seidel/lanes.hpp"
 
 namespace ballast {
+namespace {
+
+using Contact = DelassusSweep::Contact;
+using Rows = DelassusSweep::Rows;
+
+/// Three numbers side by side; the fourth says nothing.
+using Column = double __attribute__((vector_size(32)));
+
+/// u_c = W_c r + q_c, in the given tangents: a row of 3 x 3 blocks times the impulses. The columns
+/// of blocks are summed apart: an addition need not wait for the one before.
+BALLAST_INLINE Column velocity(const Rows& w, const Contact& contact, const double* r) {
+  Column sums[3] = {{contact.q[0], contact.q[1], contact.q[2], 0.0}, {}, {}};
+  for (int k = contact.begin; k < contact.end; ++k) {
+    const double* block = w.blocks + 9 * static_cast<size_t>(k);
+    const double* impulse = r + 3 * w.contacts[k];
+    for (int j = 0; j < 3; ++j) {
+      Column column;
+      std::memcpy(&column, block + 3 * j, sizeof column);
+      sums[j] += column * impulse[j];
+    }
+  }
+  return sums[0] + (sums[1] + sums[2]);
+}
+
+/// Each contact already sees the impulses that those before it have just been given.
+BALLAST_FOR_EACH_CPU
+void sweep_rows(const Rows& w, Contact* contacts, int count, double* r) {
+  for (int c = 0; c < count; ++c) {
+    const Column u = velocity(w, contacts[c], r);
+    const double velocity[3] = {u[0], u[1], u[2]};
+    resolve_contact(contacts[c].local, contacts[c].turn, velocity, r + 3 * c, contacts[c].slip);
+  }
+}
+
+/// The velocities of so many contacts from `first` on, four numbers each.
+BALLAST_FOR_EACH_CPU
+void find_velocities(const Rows& w, const Contact* first, int count, const double* r, double* u) {
+  for (int c = 0; c < count; ++c) {
+    const Column moved = velocity(w, first[c], r);
+    std::memcpy(u + 4 * c, &moved, sizeof moved);
+  }
+}
+
+}  // namespace
 
 void DelassusSweep::prepare(const FrictionProblem& problem) {
-  const int contacts = problem.contact_count();
-  const SparseRows& w = problem.delassus.w;
-  std::vector<int> contact_of_row(problem.row_count());
+  const int contacts = problem.contact_count(), rows = problem.row_count();
+  // The contact of each row, and of each contact its place in the block row at hand.
+  std::vector<int> scratch(rows + contacts, -1);
+  int *contact_of_row = scratch.data(), *slot = contact_of_row + rows;
   for (int c = 0; c < contacts; ++c)
     for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row)
       contact_of_row[row] = c;
 
-  // The contacts that W couples with each, in the order of their first entries, and the blocks.
-  block_begin_.assign(1, 0);
-  block_begin_.reserve(contacts + 1);
   block_contact_.clear();
   blocks_.clear();
-  const int full_blocks = static_cast<int>(w.nonZeros()) / 9 + contacts;
+  const int full_blocks = static_cast<int>(problem.delassus.w.nonZeros()) / 9 + contacts;
   block_contact_.reserve(full_blocks);
-  blocks_.reserve(9 * full_blocks);
+  blocks_.reserve(9 * full_blocks + 1);
   contacts_.assign(contacts, {});
-  q_.setZero(3 * contacts);
   r_.setZero(3 * contacts);
-  std::vector<int> slot(contacts, -1);  // of a neighbour in the block row at hand
   for (int c = 0; c < contacts; ++c) {
-    for (int i = 0; i < problem.contact_rows(c); ++i)
-      for (SparseRows::InnerIterator entry(w, problem.row_begin[c] + i); entry;) {
-        const int other = contact_of_row[entry.col()];
-        const int first = problem.row_begin[other], rows = problem.contact_rows(other);
-        if (slot[other] < block_begin_.back()) {
-          slot[other] = static_cast<int>(block_contact_.size());
-          block_contact_.push_back(other);
-          blocks_.resize(blocks_.size() + 9, 0.0);
-        }
-        double* block = blocks_.data() + 9 * slot[other];
-        for (; entry; ++entry) {
-          const int j = static_cast<int>(entry.col()) - first;
-          if (j < 0 || j >= rows) break;
-          block[3 * j + i] = entry.value();
-        }
-      }
+    Contact& contact = contacts_[c];
+    contact.begin = static_cast<int>(block_contact_.size());
+    if (!append_whole_blocks(problem, c, contact_of_row))
+      append_entries(problem, c, contact_of_row, slot);
+    contact.end = static_cast<int>(block_contact_.size());
     // Its own block, in the coordinates in which it is solved.
     Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
-    if (slot[c] >= block_begin_.back()) own = Eigen::Matrix3d(blocks_.data() + 9 * slot[c]);
+    for (int k = contact.begin; k < contact.end; ++k)
+      if (block_contact_[k] == c) own = Eigen::Matrix3d(blocks_.data() + 9 * k);
     const Eigen::Matrix3d symmetric = 0.5 * (own + own.transpose());
-    make_principal(symmetric, problem.friction[c], contacts_[c].local, contacts_[c].turn);
-    contacts_[c].lambda_max = largest_eigenvalue(symmetric);
+    make_principal(symmetric, problem.friction[c], contact.local, contact.turn);
+    contact.lambda_max = largest_eigenvalue(symmetric);
     for (int i = 0; i < problem.contact_rows(c); ++i)
-      q_[3 * c + i] = problem.delassus.q[problem.row_begin[c] + i];
-    block_begin_.push_back(static_cast<int>(block_contact_.size()));
+      contact.q[i] = problem.delassus.q[problem.row_begin[c] + i];
   }
+  blocks_.push_back(0.0);  // a column of four is read where the last one has three
+}
+
+/// The blocks of contact c where its three rows have entries in the same columns, of whole contacts
+/// with three rows: as files mostly have it. False: nothing was appended.
+bool DelassusSweep::append_whole_blocks(const FrictionProblem& problem, int c,
+                                        const int* contact_of_row) {
+  const SparseRows& w = problem.delassus.w;
+  if (problem.contact_rows(c) != 3 || !w.isCompressed()) return false;
+  const int first = problem.row_begin[c], begin = w.outerIndexPtr()[first],
+            count = w.outerIndexPtr()[first + 1] - begin;
+  if (w.outerIndexPtr()[first + 3] - begin != 3 * count || count % 3 != 0) return false;
+  const int* column = w.innerIndexPtr() + begin;
+  if (!std::equal(column, column + count, column + count) ||
+      !std::equal(column, column + count, column + 2 * count))
+    return false;
+  for (int k = 0; k < count; k += 3) {
+    const int other = contact_of_row[column[k]];
+    if (problem.contact_rows(other) != 3 || problem.row_begin[other] != column[k] ||
+        column[k + 2] != column[k] + 2)
+      return false;
+  }
+  const double* value = w.valuePtr() + begin;
+  size_t at = blocks_.size();
+  blocks_.resize(at + 3 * count);
+  for (int k = 0; k < count; k += 3) {
+    block_contact_.push_back(contact_of_row[column[k]]);
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) blocks_[at++] = value[i * count + k + j];
+  }
+  return true;
+}
+
+/// The blocks of contact c, entry by entry, in the order of their first ones. `slot`: less than the
+/// number of blocks.
+void DelassusSweep::append_entries(const FrictionProblem& problem, int c, const int* contact_of_row,
+                                   int* slot) {
+  const int begin = static_cast<int>(block_contact_.size());
+  for (int i = 0; i < problem.contact_rows(c); ++i)
+    for (SparseRows::InnerIterator entry(problem.delassus.w, problem.row_begin[c] + i); entry;
+         ++entry) {
+      const int column = static_cast<int>(entry.col()), other = contact_of_row[column];
+      if (slot[other] < begin) {
+        slot[other] = static_cast<int>(block_contact_.size());
+        block_contact_.push_back(other);
+        blocks_.resize(blocks_.size() + 9, 0.0);
+      }
+      blocks_[9 * slot[other] + 3 * (column - problem.row_begin[other]) + i] = entry.value();
+    }
 }
 
 void DelassusSweep::load(const FrictionProblem& problem, const Impulses& r) {
@@ -67,26 +150,8 @@ void DelassusSweep::store(const FrictionProblem& problem, Impulses& r) const {
     for (int i = 0; i < problem.contact_rows(c); ++i) r[problem.row_begin[c] + i] = r_[3 * c + i];
 }
 
-/// A row of 3 x 3 blocks times the impulses.
-void DelassusSweep::velocity(int c, double* u) const {
-  double sum[3] = {q_[3 * c], q_[3 * c + 1], q_[3 * c + 2]};
-  for (int k = block_begin_[c]; k < block_begin_[c + 1]; ++k) {
-    const double* block = blocks_.data() + 9 * k;
-    const double* r = r_.data() + 3 * block_contact_[k];
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < 3; ++i) sum[i] += block[3 * j + i] * r[j];
-  }
-  for (int i = 0; i < 3; ++i) u[i] = sum[i];
-}
-
 void DelassusSweep::sweep() {
-  // Each contact already sees the impulses that those before it have just been given.
-  for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
-    Contact& contact = contacts_[c];
-    double u[3];
-    velocity(c, u);
-    resolve_contact(contact.local, contact.turn, u, r_.data() + 3 * c, contact.slip);
-  }
+  sweep_rows(rows(), contacts_.data(), static_cast<int>(contacts_.size()), r_.data());
 }
 
 void DelassusSweep::start_search() {
@@ -106,8 +171,8 @@ void DelassusSweep::sweep_by(const SweepVariant& variant, const std::vector<int>
   for (const int c : contacts) {
     Contact& contact = contacts_[c];
     const PrincipalContact& local = contact.local;
-    double u[3], *r = r_.data() + 3 * c, y[3] = {r[0], r[1], r[2]};
-    velocity(c, u);
+    const Column moved = velocity(rows(), contact, r_.data());
+    double *r = r_.data() + 3 * c, u[3] = {moved[0], moved[1], moved[2]}, y[3] = {r[0], r[1], r[2]};
     // Into principal coordinates and back, as resolve_contact() does in registers.
     contact.turn.to_principal(u[1], u[2]);
     contact.turn.to_principal(y[1], y[2]);
@@ -123,14 +188,19 @@ void DelassusSweep::sweep_by(const SweepVariant& variant, const std::vector<int>
 }
 
 double DelassusSweep::error() {
+  constexpr int most = 16;  // contacts at a time
+  double u[4 * most];
   RootMeanSquare mean;
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     const Contact& contact = contacts_[c];
+    if (c % most == 0) {
+      const int count = std::min(most, static_cast<int>(contacts_.size()) - c);
+      find_velocities(rows(), &contact, count, r_.data(), u);
+    }
     if (!(contact.lambda_max > 0.0)) continue;
-    Eigen::Vector3d u;
-    velocity(c, u.data());
-    const Eigen::Vector3d r(r_[3 * c], r_[3 * c + 1], r_[3 * c + 2]);
-    mean.add(ContactJudge::scaled_natural_map(r, u, contact.local.mu, contact.lambda_max));
+    mean.add(ContactJudge::scaled_natural_map(r_.segment<3>(3 * c),
+                                              Eigen::Vector3d(u + 4 * (c % most)), contact.local.mu,
+                                              contact.lambda_max));
   }
   return mean.value();
 }

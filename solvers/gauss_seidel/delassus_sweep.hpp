@@ -27,22 +27,30 @@ class DelassusSweep final : public ContactSweep {
   void sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) override;
   double error() override;
 
- private:
   struct Contact {
     PrincipalContact local;
     TangentTurn turn;
     double lambda_max = 0.0;
-    double slip = 0.0;  ///< the last slip root
+    double slip = 0.0;       ///< the last slip root
+    double q[3]{};           ///< in the given tangents
+    int begin = 0, end = 0;  ///< its blocks
+  };
+  /// W by rows of blocks, and the contact of each block's column.
+  struct Rows {
+    const double* blocks;
+    const int* contacts;
   };
 
-  /// u_c = W_c r + q_c, in the given tangents.
-  void velocity(int c, double* u) const;
+ private:
+  bool append_whole_blocks(const FrictionProblem& problem, int c, const int* contact_of_row);
+  void append_entries(const FrictionProblem& problem, int c, const int* contact_of_row, int* slot);
+  Rows rows() const { return {blocks_.data(), block_contact_.data()}; }
 
-  std::vector<int> block_begin_;  ///< contacts + 1
-  std::vector<int> block_contact_;
-  std::vector<double> blocks_;  ///< 3 x 3, column-major; one-row contacts are padded with zeros
+  std::vector<int> block_contact_;  ///< of the contacts one after the other
+  /// 3 x 3, column-major; one-row contacts are padded with zeros. One number more at the end.
+  std::vector<double> blocks_;
   std::vector<Contact> contacts_;
-  Eigen::VectorXd q_, r_;               ///< three per contact
+  Eigen::VectorXd r_;                   ///< three per contact
   Eigen::VectorXd before_, direction_;  ///< of a search: where the last sweep began
 };
 

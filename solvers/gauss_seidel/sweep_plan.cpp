@@ -34,6 +34,7 @@ void SweepPlan::find_levels(const DynamicsForm& dynamics) {
   // The graph of bodies as lists of neighbours: the ends of contacts by their bodies, each then
   // replaced by the contact's other end.
   ends_.clear();
+  ends_.reserve(2 * contacts);
   for (int c = 0; c < contacts; ++c)
     if (dynamics.body_a[c] >= 0 && dynamics.body_b[c] >= 0)
       ends_.insert(ends_.end(), {dynamics.body_a[c], dynamics.body_b[c]});
@@ -42,6 +43,7 @@ void SweepPlan::find_levels(const DynamicsForm& dynamics) {
   // Component by component: a search to its rim, and the levels from there.
   level_.assign(bodies, -1);
   queue_.clear();
+  queue_.reserve(bodies);
   levels_ = 0;
   for (int root = 0; root < bodies; ++root) {
     if (level_[root] >= 0) continue;

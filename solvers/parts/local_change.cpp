@@ -74,9 +74,11 @@ class ChangeStopped final : public Solver {
         whole.history.push_back(
             {whole.iterations + point.iteration, begun + point.seconds, point.error});
       whole.impulses = std::move(next.impulses);
+      if (whole.iterations == 0) whole.start_error = next.start_error;
       whole.iterations += next.iterations;
       whole.startup_seconds += next.startup_seconds;
       whole.own_residual = next.own_residual;
+      whole.end_error = next.end_error;
       whole.reason = next.reason;
       // The backend has nothing more to do, or failed, or the rule is met, or nothing is left.
       if (next.iterations < asked || whole.impulses.size() != problem.row_count()) return whole;

@@ -21,6 +21,8 @@ Solved SolveBook::closed(Impulses impulses, StopReason reason, double error) {
   solved.reason = reason;
   solved.iterations = count_;
   solved.own_residual = error;
+  solved.start_error = start_error_;
+  solved.end_error = error;
   solved.startup_seconds = startup_;
   solved.history = std::move(history_);
   return solved;
@@ -34,15 +36,15 @@ bool Iteration::next() {
 
 bool Iteration::error_due() {
   // Once the time is over the iterate must be judged, and it is the last.
-  out_of_time_ = seconds() >= budget_.max_seconds;
+  out_of_time_ = is_late();
   return count_ >= next_check_ || count_ >= budget_.max_iterations || out_of_time_;
 }
 
 void Iteration::evaluated(double error, const Impulses& r) {
   const bool is_enough = budget_.fclib && budget_.fclib->reached(r, error);
-  const double now = seconds();
   // What is remembered: the point, and since when the error has not changed in any digit.
-  if (budget_.keep_history) history_.push_back({count_, now, error});
+  see(error);
+  if (budget_.keep_history) history_.push_back({count_, seconds(), error});
   if (!(error == error_)) unchanged_since_ = count_;
   error_ = error;
   // The next look: later by the factor that fits the distance.
@@ -51,7 +53,7 @@ void Iteration::evaluated(double error, const Impulses& r) {
   while (next_check_ <= count_)
     next_check_ = std::max(next_check_ + 1, static_cast<int>(std::ceil(next_check_ * growth)));
 
-  reason_ = reason_to_stop(error, is_enough, out_of_time_ || now >= budget_.max_seconds);
+  reason_ = reason_to_stop(error, is_enough, out_of_time_ || is_late());
   if (!reason_ && (count_ - unchanged_since_ >= stalled_after ||
                    (budget_.gives_up && budget_.gives_up(count_, error))))
     reason_ = StopReason::stalled;
@@ -60,16 +62,17 @@ void Iteration::evaluated(double error, const Impulses& r) {
 void Course::run(const Part& part) {
   const int before = count_;
   const double began = seconds();
-  Budget left = rest();
-  left.keep_history = true;  // its last point is the error that the part came to
   // The part works on a copy: the best iterate may have to stay.
-  Solved done = part(best_, left);
-  if (error_ == unknown && !done.history.empty()) error_ = done.history.front().error;
+  Solved done = part(best_, rest(began));
+  if (error_ == unknown && !std::isnan(done.start_error)) {
+    error_ = done.start_error;
+    see(error_);
+  }
   for (const HistoryPoint& point : done.history)
     remember(before + point.iteration, began + point.seconds, point.error);
   spend(done.iterations);
   add_startup(done.startup_seconds);
-  const double error = done.history.empty() ? error_ : done.history.back().error;
+  const double error = done.end_error;
   const bool is_enough = done.reason == StopReason::reached_tolerance;
   if (!is_enough && !(error < error_)) return;
   is_enough_ = is_enough_ || is_enough;
@@ -86,7 +89,7 @@ void Course::run(Solver& solver, const FrictionProblem& problem, int most_iterat
 }
 
 void Course::offer(const Impulses& r, double error) {
-  const double now = seconds();
+  see(error);
   // The other measure may be reached where the error is not the smallest. Of an error of zero it
   // need not be asked.
   const bool is_asked = budget_.fclib && !is_enough_ && error > 0.0;
@@ -97,12 +100,11 @@ void Course::offer(const Impulses& r, double error) {
     best_ = r;
   }
   is_enough_ = is_enough_ || is_enough;
-  remember(count_, now, error_);
+  if (budget_.keep_history) remember(count_, seconds(), error_);
 }
 
 /// One point per count of iterations, the last one that was true of it; the errors are of the best.
 void Course::remember(int iterations, double seconds, double error) {
-  if (!budget_.keep_history) return;
   if (!history_.empty()) {
     error = std::min(error, history_.back().error);
     if (history_.back().iteration == iterations) history_.pop_back();
@@ -110,14 +112,15 @@ void Course::remember(int iterations, double seconds, double error) {
   history_.push_back({iterations, seconds, error});
 }
 
-Budget Course::rest() const {
-  Budget rest = budget_.after(count_, seconds());
+Budget Course::rest(double now) const {
+  Budget rest = budget_.after(count_, now);
   rest.gives_up = {};
   return rest;
 }
 
 Solved Course::finish() {
-  if (history_.empty() || history_.back().iteration != count_) remember(count_, seconds(), error_);
+  const bool is_told = !history_.empty() && history_.back().iteration == count_;
+  if (budget_.keep_history && !is_told) remember(count_, seconds(), error_);
   return closed(std::move(best_), end().value_or(StopReason::stalled), error_);
 }
 

@@ -2,6 +2,7 @@
 // The bookkeeping that backends share: budget, clock, when to look at the error, why to stop,
 // history.
 
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,6 +22,7 @@ class SolveBook {
 
   int count() const { return count_; }  ///< of iterations
   double seconds() const { return watch_.seconds() - startup_; }
+  bool is_late() const { return watch_.has_passed(budget_.max_seconds + startup_); }
   /// Small enough to stop [m/s].
   bool reached(double error) const { return error <= budget_.tolerance * (1.0 - margin); }
   /// So much of the time that has passed was start-up (Solved::startup_seconds): no limit and no
@@ -31,6 +33,10 @@ class SolveBook {
   /// Nothing: the solve goes on from an iterate of this error. `is_enough`: it satisfies what the
   /// budget asks for; `is_late`: the time is over.
   std::optional<StopReason> reason_to_stop(double error, bool is_enough, bool is_late) const;
+  /// Of an iterate's error: the first is the start's.
+  void see(double error) {
+    if (std::isnan(start_error_)) start_error_ = error;
+  }
   /// What a backend returns; the history is moved out.
   Solved closed(Impulses impulses, StopReason reason, double error);
 
@@ -40,7 +46,7 @@ class SolveBook {
 
  private:
   Stopwatch watch_;
-  double startup_ = 0.0;
+  double startup_ = 0.0, start_error_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// When the error is evaluated: at `first`, and then after `growth` times as many iterations;
@@ -97,8 +103,8 @@ class Iteration : public SolveBook {
 /// was judged, until over(); then finish().
 class Course : public SolveBook {
  public:
-  /// A solver's part: from `start`, with `left` to spend. What it returns has a history, whose
-  /// first point is the error at `start`. `reached_tolerance` says that the course is over.
+  /// A solver's part: from `start`, with `left` to spend. `reached_tolerance` says that the course
+  /// is over.
   using Part = std::function<Solved(Impulses start, Budget left)>;
 
   /// `start` is the best so far.
@@ -121,7 +127,7 @@ class Course : public SolveBook {
   /// The best is small enough to stop, or nothing is left of the budget.
   bool over() const { return end().has_value(); }
   /// What is left, without Budget::gives_up, which counts from the beginning.
-  Budget rest() const;
+  Budget rest() const { return rest(seconds()); }
 
   /// The best iterate with counts and the history of the best error; `stalled` where neither the
   /// tolerance nor a limit was reached.
@@ -130,9 +136,8 @@ class Course : public SolveBook {
  private:
   static constexpr double unknown = 1e300;
 
-  std::optional<StopReason> end() const {
-    return reason_to_stop(error_, is_enough_, seconds() >= budget_.max_seconds);
-  }
+  std::optional<StopReason> end() const { return reason_to_stop(error_, is_enough_, is_late()); }
+  Budget rest(double now) const;
   void remember(int iterations, double seconds, double error);
 
   double error_ = unknown;

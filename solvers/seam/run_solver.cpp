@@ -92,8 +92,7 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
   try {
     Stopwatch watch;
     if (prepares) solver.prepare(problem);
-    run.prepare_seconds = prepares ? watch.seconds() : 0.0;
-    watch.restart();
+    if (prepares) run.prepare_seconds = watch.restart();
     run.solved = solver.solve(problem, std::move(start), left);
     run.startup_seconds = run.solved.startup_seconds;
     run.solve_seconds = watch.seconds() - run.startup_seconds;

@@ -25,7 +25,7 @@ bool FclibStop::reached(const Impulses& r, double natural_map) {
   if (looks_ >= first_looks && is_idle) return false;
   ++looks_;
   looked_at_ = natural_map;
-  const double value = judge_.judge(*problem_, r).fclib;
+  const double value = judge_.fclib(*problem_, r, free_norm_);
   aim_ = value > 0.0 ? natural_map * tolerance_ / value : natural_map;
   return value <= tolerance_ * (1.0 - margin);
 }

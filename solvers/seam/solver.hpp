@@ -72,6 +72,7 @@ class FclibStop {
 
   const FrictionProblem* problem_;
   double tolerance_, aim_ = std::numeric_limits<double>::infinity();
+  double free_norm_ = -1.0;  ///< |q|; negative: not known
   double looked_at_ = std::numeric_limits<double>::infinity();
   int looks_ = 0;
   ContactJudge judge_;
@@ -112,6 +113,9 @@ struct Solved {
   StopReason reason = StopReason::numerical_failure;
   int iterations = 0;
   double own_residual = 0.0;
+  /// Scaled natural map (rms) of the start and of `impulses`, as the method saw it; NaN: it did
+  /// not.
+  double start_error = std::numeric_limits<double>::quiet_NaN(), end_error = start_error;
   /// Wall clock of solve() that is not the method's: processes started for a foreign library,
   /// problems converted to its form, its answers judged.
   double startup_seconds = 0.0;

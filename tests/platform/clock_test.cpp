@@ -23,3 +23,11 @@ TEST_CASE("a stopwatch runs in seconds, and its laps add up") {
   CHECK(all - sum < 0.5 * all + 0.01);
   CHECK(whole.seconds() >= all);
 }
+
+TEST_CASE("a time has passed from its moment on, as the stopwatch itself says") {
+  const Stopwatch watch;
+  CHECK(watch.has_passed(0.0));
+  CHECK_FALSE(watch.has_passed(1e30));
+  while (!watch.has_passed(0.03)) CHECK(watch.seconds() < 30.0);
+  CHECK(watch.seconds() >= 0.03);
+}

@@ -141,6 +141,24 @@ TEST_CASE("the judge agrees with dense matrices") {
   }
 }
 
+TEST_CASE("Siconos' measure alone is the judge's") {
+  const FrictionProblem problems[] = {oracle::mixed_problem(), make_known_solution({}).problem};
+  for (const FrictionProblem& bodies : problems)
+    for (const FrictionProblem& problem : {bodies, only_delassus(bodies)}) {
+      const int rows = problem.row_count();
+      ContactJudge judge;
+      double free_norm = -1.0;
+      for (const Impulses& r : {random_impulses(rows, 5), Impulses(Impulses::Zero(rows)),
+                                random_impulses(rows, 6, 1e-3)}) {
+        const double measure = judge.fclib(problem, r, free_norm);
+        CHECK(measure == Approx(contact_error(problem, r).fclib).epsilon(1e-13));
+      }
+      Impulses broken = random_impulses(rows, 7);
+      broken[1] = std::numeric_limits<double>::quiet_NaN();
+      CHECK(judge.fclib(problem, broken, free_norm) == std::numeric_limits<double>::infinity());
+    }
+}
+
 TEST_CASE("a team judges with the bits of one thread") {
   const FrictionProblem problem = make_known_solution({.contacts = 700}).problem;
   const Impulses r = random_impulses(problem.row_count(), 32);
