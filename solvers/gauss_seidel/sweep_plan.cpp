@@ -22,8 +22,13 @@ void sort_by_key(const std::vector<int>& keys, int count, std::vector<int>& begi
 }  // namespace
 
 void SweepPlan::prepare(const FrictionProblem& problem) {
-  find_levels(problem.dynamics);
-  cut_slabs(problem.dynamics);
+  slab_.assign(problem.dynamics.body_count(), 0);
+  slabs_ = 1;
+  const int wanted = problem.dynamics.body_count() / slab_bodies;
+  if (wanted > 1) {
+    find_levels(problem.dynamics);
+    cut_slabs(problem.dynamics, wanted);
+  }
   sort_by_key(slab_, slabs_, body_begin_, bodies_);
   order(problem);
 }
@@ -75,20 +80,15 @@ int SweepPlan::breadth_first(int root, int level) {
 
 /// Slabs of about equally many contacts, cut anywhere in the breadth-first order, but three levels
 /// thick where there are more than two: then the interfaces on a slab's two sides share no body.
-void SweepPlan::cut_slabs(const DynamicsForm& dynamics) {
+void SweepPlan::cut_slabs(const DynamicsForm& dynamics, int wanted) {
   // Levels of the search, cut into slabs; interiors are contacts within a slab, and
   // interface k joins slabs k and k + 1:
   //
   //     levels   0 1 2 | 3 4 5 | 6 7 8
   //     slabs      0       1       2
   //     interfaces     0       1
-  const int bodies = dynamics.body_count();
-  const int wanted = std::max(1, bodies / slab_bodies);
-  slab_.assign(bodies, 0);
-  slabs_ = 1;
-  if (wanted == 1) return;
   // Every body weighs its contacts.
-  count_.assign(bodies, 0);
+  count_.assign(dynamics.body_count(), 0);
   long total = 0, passed = 0;
   for (size_t c = 0; c < dynamics.body_a.size(); ++c)
     for (const int body : {dynamics.body_a[c], dynamics.body_b[c]})

@@ -50,7 +50,7 @@ class SweepPlan {
  private:
   void find_levels(const DynamicsForm& dynamics);
   int breadth_first(int root, int level);
-  void cut_slabs(const DynamicsForm& dynamics);
+  void cut_slabs(const DynamicsForm& dynamics, int wanted);
   void find_openings(const FrictionProblem& problem);
   int level_of(double opening) const;
   void order(const FrictionProblem& problem);
