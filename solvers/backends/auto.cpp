@@ -87,7 +87,7 @@ class Auto final : public Solver {
 
   static constexpr double first_steps = 40.0;  ///< of Newton's first turn
   /// Sweeps over few bodies that cost as much as a step: most of it is the order of elimination.
-  static constexpr double first_step = 60.0;
+  static constexpr double first_step = 25.0;
   /// Of so few a sweep is as dear as a factorisation.
   static constexpr int few_iterations = 1000;
 
