@@ -32,6 +32,14 @@ class Auto final : public Solver {
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    if (start.isZero(0.0) && nothing_presses(problem)) {
+      Solved solved;
+      solved.impulses = std::move(start);
+      solved.reason = StopReason::reached_tolerance;
+      solved.start_error = solved.end_error = 0.0;
+      if (budget.keep_history) solved.history = {{0, 0.0, 0.0}};
+      return solved;
+    }
     const bool is_scarce = budget.max_iterations <= few_iterations;
     const double step = is_scarce ? 1.0
                         : problem.has_dynamics
@@ -40,8 +48,6 @@ class Auto final : public Solver {
     Way& newton = problem.has_dynamics && !is_scarce ? burst_ : proximal_;
 
     Course course(budget, std::move(start));
-    if (course.best().isZero(0.0) && nothing_presses(problem)) course.offer(course.best(), 0.0);
-    if (course.over()) return course.finish();
     SlowSweeps slow(step, 0.25 * budget.max_iterations, budget);
     course.run([&](Impulses first, Budget whole) {
       whole.gives_up = std::ref(slow);
