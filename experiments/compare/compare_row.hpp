@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/compare/compare_case.hpp"
-#include "problems/algebra/contact_error.hpp"
+#include "problems/algebra/answer_distance.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {

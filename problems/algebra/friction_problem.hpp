@@ -128,6 +128,14 @@ class KnownMasses {
 /// u = W r + q with three rows per contact, and nothing known of bodies.
 FrictionProblem local_problem(SparseRows&& w, Eigen::VectorXd q, std::vector<double> mu);
 
+/// The rows of contact c of a vector over all rows, as three: those that it has not are zero.
+inline Eigen::Vector3d rows_of_contact(const FrictionProblem& problem, const Eigen::VectorXd& all,
+                                       int c) {
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  x.head(problem.contact_rows(c)) = all.segment(problem.row_begin[c], problem.contact_rows(c));
+  return x;
+}
+
 /// The diagonal block of contact c in the stored W, as it is; entries beyond its rows are zero.
 Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c);
 
