@@ -126,6 +126,7 @@ void summarise_wall(std::span<const StepRecord> steps, RunSummary& summary) {
   const std::vector<WallPeriod>& periods = summary.wall.periods;
   summary.rise = over_periods(periods, &WallPeriod::rise);
   summary.net = over_periods(periods, &WallPeriod::net);
+  summary.yield_load = over_periods(periods, &WallPeriod::yield_load);
   summary.speed_in = over_periods(periods, &WallPeriod::speed_in);
   summary.speed_out = over_periods(periods, &WallPeriod::speed_out);
   summary.prefactor = summary.rise.mean / eq3_displacement(facts);

@@ -187,9 +187,9 @@ struct RunSummary {
   JammedState jammed;
   FirstContraction contraction;
   // over the periods that count
-  Statistics rise, net, speed_in, speed_out;  ///< as in WallPeriod
-  double prefactor = not_known;               ///< C of Eq. 3, m the mass of all grains
-  ForceLaw law;                               ///< f_g(xi) and f_g(f) while the wall moves
+  Statistics rise, net, speed_in, speed_out, yield_load;  ///< as in WallPeriod
+  double prefactor = not_known;                           ///< C of Eq. 3, m the mass of all grains
+  ForceLaw law;  ///< f_g(xi) and f_g(f) while the wall moves
 
   // with a packing
   Compaction compaction;

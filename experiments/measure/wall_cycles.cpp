@@ -19,14 +19,19 @@ void find_stroke(std::span<const StepRecord> steps, WallPeriod& period) {
   //        \____/
   //          x_before, the least x so far
   double running = not_known;
+  size_t jammed = period.first;
   for (size_t k = period.first; k < period.last; ++k) {
     const double x = steps[k].wall_x;
     if (!std::isfinite(x)) continue;
-    if (!(running <= x)) running = x;
+    if (!(running < x)) {  // of equal ones the last: there the stroke begins
+      running = x;
+      jammed = k;
+    }
     if (x - running <= period.rise) continue;  // false on the first: rise is NaN
     period.rise = x - running;
     period.peak = k;
     period.x_before = running;
+    period.yield_load = steps[jammed].load;
     period.x_peak = x;
   }
   period.x_after = period.x_peak;

@@ -54,16 +54,17 @@ inline constexpr double jammed_speed = 0.02;
 
 /// One whole period of the load, (begin, end], from the load's falling mean to the next.
 struct WallPeriod {
-  double begin = 0, end = 0;     ///< [s]
-  size_t first = 0, last = 0;    ///< samples [first, last)
-  double x_before = not_known;   ///< jamming position the rise starts from: running minimum [m]
-  double x_peak = not_known;     ///< [m]
-  double x_after = not_known;    ///< jamming position after the peak: least x until the end [m]
-  size_t peak = 0;               ///< sample of x_peak
-  double rise = not_known;       ///< Delta x_max: largest rise above the running minimum [m]
-  double net = not_known;        ///< change of x over the period [m]; negative: contraction
-  double speed_out = not_known;  ///< largest outward velocity [m/s]
-  double speed_in = not_known;   ///< largest inward velocity, positive: the paper's v_max [m/s]
+  double begin = 0, end = 0;      ///< [s]
+  size_t first = 0, last = 0;     ///< samples [first, last)
+  double x_before = not_known;    ///< jamming position the rise starts from: running minimum [m]
+  double yield_load = not_known;  ///< the load at x_before [N]: below it the packing gives way
+  double x_peak = not_known;      ///< [m]
+  double x_after = not_known;     ///< jamming position after the peak: least x until the end [m]
+  size_t peak = 0;                ///< sample of x_peak
+  double rise = not_known;        ///< Delta x_max: largest rise above the running minimum [m]
+  double net = not_known;         ///< change of x over the period [m]; negative: contraction
+  double speed_out = not_known;   ///< largest outward velocity [m/s]
+  double speed_in = not_known;    ///< largest inward velocity, positive: the paper's v_max [m/s]
   double solid_fraction = not_known;  ///< mean over the period
   double jammed_share = not_known;    ///< of the period's samples
 };

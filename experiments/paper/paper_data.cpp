@@ -73,6 +73,8 @@ const RunColumn all_columns[] = {
     {"push", "N", "F = a/(1 - w)", [](Run r) { return r.law.push; }},
     {"push_over_weight", "1", "F/(m g)",
      [](Run r) { return r.law.push / (r.facts.grain_mass * r.facts.gravity); }},
+    {"yield_over_weight", "1", "f/(m g) where the stroke begins",
+     [](Run r) { return r.yield_load.mean / (r.facts.grain_mass * r.facts.gravity); }},
     {"carried_mass", "kg", "M = m_w w/(1 - w)", [](Run r) { return r.law.carried_mass; }},
     {"prefactor_theory", "1", "(9/4 pi^2) (F/(m g))^2 (m + m_w)/(m_w + M)",
      [](Run r) { return r.law.prefactor; }},

@@ -53,6 +53,7 @@ TEST_CASE("strokes: against every pair of samples") {
     CHECK(period.rise == rise);
     CHECK(steps[period.peak].wall_x == period.x_peak);
     CHECK(period.x_peak - period.x_before == rise);
+    CHECK(period.yield_load == Approx(SyntheticBox{}.active_force).margin(25.0));  // of two steps
     CHECK(period.net == Approx(-SyntheticBox{}.ratchet).epsilon(1e-9));
     CHECK(period.last - period.first == 1000);
     CHECK(period.x_after == Approx(period.x_before - SyntheticBox{}.ratchet).epsilon(1e-9));
