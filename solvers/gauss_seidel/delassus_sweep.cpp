@@ -11,14 +11,14 @@ namespace ballast {
 namespace {
 
 using Contact = DelassusSweep::Contact;
-using Rows = DelassusSweep::Rows;
+using BlockRows = DelassusSweep::BlockRows;
 
 /// Three numbers side by side; the fourth says nothing.
 using Column = double __attribute__((vector_size(32)));
 
 /// u_c = W_c r + q_c, in the given tangents: a row of 3 x 3 blocks times the impulses. The columns
 /// of blocks are summed apart: an addition need not wait for the one before.
-BALLAST_INLINE Column velocity(const Rows& w, const Contact& contact, const double* r) {
+BALLAST_INLINE Column velocity(const BlockRows& w, const Contact& contact, const double* r) {
   Column sums[3] = {{contact.q[0], contact.q[1], contact.q[2], 0.0}, {}, {}};
   for (int k = contact.begin; k < contact.end; ++k) {
     const double* block = w.blocks + 9 * static_cast<size_t>(k);
@@ -34,7 +34,7 @@ BALLAST_INLINE Column velocity(const Rows& w, const Contact& contact, const doub
 
 /// Each contact already sees the impulses that those before it have just been given.
 BALLAST_FOR_EACH_CPU
-void sweep_rows(const Rows& w, Contact* contacts, int count, double* r) {
+void sweep_rows(const BlockRows& w, Contact* contacts, int count, double* r) {
   for (int c = 0; c < count; ++c) {
     const Column u = velocity(w, contacts[c], r);
     const double velocity[3] = {u[0], u[1], u[2]};
@@ -44,7 +44,8 @@ void sweep_rows(const Rows& w, Contact* contacts, int count, double* r) {
 
 /// The velocities of so many contacts from `first` on, four numbers each.
 BALLAST_FOR_EACH_CPU
-void find_velocities(const Rows& w, const Contact* first, int count, const double* r, double* u) {
+void find_velocities(const BlockRows& w, const Contact* first, int count, const double* r,
+                     double* u) {
   for (int c = 0; c < count; ++c) {
     const Column moved = velocity(w, first[c], r);
     std::memcpy(u + 4 * c, &moved, sizeof moved);

@@ -36,7 +36,7 @@ class DelassusSweep final : public ContactSweep {
     int begin = 0, end = 0;  ///< its blocks
   };
   /// W by rows of blocks, and the contact of each block's column.
-  struct Rows {
+  struct BlockRows {
     const double* blocks;
     const int* contacts;
   };
@@ -44,7 +44,7 @@ class DelassusSweep final : public ContactSweep {
  private:
   bool append_whole_blocks(const FrictionProblem& problem, int c, const int* contact_of_row);
   void append_entries(const FrictionProblem& problem, int c, const int* contact_of_row, int* slot);
-  Rows rows() const { return {blocks_.data(), block_contact_.data()}; }
+  BlockRows rows() const { return {blocks_.data(), block_contact_.data()}; }
 
   std::vector<int> block_contact_;  ///< of the contacts one after the other
   /// 3 x 3, column-major; one-row contacts are padded with zeros. One number more at the end.
