@@ -198,11 +198,12 @@ TEST_CASE("legends switch a curve off everywhere, and the rows are saved as they
 TEST_CASE("light, dark, wide and narrow: charts have ink, and no page is wider than its window") {
   if (is_missing()) return;
   const HandMadeComparison made;
+  Browser browser(375, 900);
   std::vector<Json> grounds;
   for (const bool is_dark : {false, true})
     for (const int width : {375, 1400}) {
       INFO(width << (is_dark ? " dark" : " light"));
-      Browser browser(width, 900, is_dark);
+      browser.look(width, 900, is_dark);
       browser.open(made.page(), "row=x1a4", is_drawn);
       CHECK(browser.js("document.documentElement.scrollWidth <= innerWidth") == true);
       CHECK(

@@ -209,8 +209,9 @@ TEST_CASE("what is most wrong stands out from a light and a dark ground") {
   const fs::path file = captured_run(place.path() / "run");
   write_view_page(view_of_problem(file, {.backends = {"pgs"}, .most_iterations = 1}),
                   place.path() / "errors.html");
+  Browser browser(900, 700);
   for (const bool is_dark : {false, true}) {
-    Browser browser(900, 700, is_dark);
+    browser.look(900, 700, is_dark);
     browser.open(place.path() / "errors.html", "", is_ready);
     // contrast of the largest ball with the ground, as the accessibility guidelines count it
     const double contrast = browser.js(
@@ -244,9 +245,7 @@ TEST_CASE("narrow, dark, and without 3D") {
                      "getBoundingClientRect(); return l.width > 20 && l.left >= p.left && "
                      "l.right <= p.right && l.top >= p.top; })()") == true);
     CHECK(pixels(browser, "r < 40 && g < 40 && b < 45")["share"] > 0.3);
-  }
-  {
-    Browser browser(1400, 900);
+    browser.look(1400, 900, false);
     browser.open(box.page(), "play=0", is_ready);
     CHECK(browser.js("document.scrollingElement.scrollWidth") == 1400);
     CHECK(browser.js("document.getElementById('replay').clientWidth").get<int>() > 1200);

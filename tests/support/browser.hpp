@@ -45,6 +45,10 @@ class Browser {
       call(std::string(domain) + ".enable");
     call("Network.emulateNetworkConditions",
          {{"offline", true}, {"latency", 0}, {"downloadThroughput", 0}, {"uploadThroughput", 0}});
+    look(width, height, is_dark);
+  }
+  /// From now on the window is so large, and its user wants it dark or light.
+  void look(int width, int height, bool is_dark) {
     call("Emulation.setDeviceMetricsOverride",
          {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
     call("Emulation.setEmulatedMedia",
