@@ -16,6 +16,7 @@
 #include "experiments/compare/comparison.hpp"
 #include "experiments/compare/ranking.hpp"
 #include "experiments/compare/stored_comparison.hpp"
+#include "experiments/page/text.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
@@ -94,7 +95,7 @@ BenchStage stage_of(const std::string& line) {
   return {head[0], *turns, words.front() == "beside" ? std::vector<std::string>() : words};
 }
 
-/// Throws PageError: no stages, one that cannot be read.
+/// Throws PageError: no stages, one that cannot be read, a place for a number that does not end.
 BenchPage read_bench_page(std::string_view file) {
   const std::string_view begin = "<!--\n", end = "-->\n";
   const size_t close = file.find(end);
@@ -105,6 +106,11 @@ BenchPage read_bench_page(std::string_view file) {
     if (!trimmed(line).empty()) page.stages.push_back(stage_of(line));
   if (page.stages.empty()) throw PageError("has no stages");
   page.text = file.substr(close + end.size());
+  try {
+    page::filled(page.text, [](const std::string&) { return ""; });
+  } catch (const std::logic_error& error) {
+    throw PageError(error.what());
+  }
   return page;
 }
 
@@ -119,20 +125,6 @@ std::string command_of(const BenchStage& stage) {
   words.insert(words.begin(), "ballast");
   words.insert(words.end(), {"--output", folder_of(stage, 1).string()});
   return '`' + shell_line(words) + '`';
-}
-
-/// `text` with each {{words}} replaced.
-std::string replaced(std::string_view text,
-                     const std::function<std::string(const std::string&)>& value) {
-  std::string result;
-  while (true) {
-    const size_t open = text.find("{{"), close = text.find("}}", open);
-    result.append(text.substr(0, open));
-    if (open == std::string_view::npos) return result;
-    if (close == std::string_view::npos) throw PageError("{{ without }}");
-    result += value(std::string(text.substr(open + 2, close - open - 2)));
-    text.remove_prefix(close + 2);
-  }
 }
 
 /// Ratios with two decimals, all else in three digits.
@@ -259,7 +251,7 @@ std::map<std::string, std::string> page_numbers(const BenchPage& page,
   std::map<std::string, std::string> result{{"date", here.started().substr(0, 10)},
                                             {"machine", here.machine()},
                                             {"commit", here.commit().substr(0, 12)}};
-  replaced(page.text, [&](const std::string& words) {
+  page::filled(page.text, [&](const std::string& words) {
     const bool is_known =
         result.contains(words) ||
         std::ranges::find(page.stages, words, &BenchStage::name) != page.stages.end();
@@ -275,7 +267,7 @@ std::map<std::string, std::string> page_numbers(const BenchPage& page,
 
 /// The page with numbers and commands put in; "–" for a number that there is not.
 std::string filled_page(const BenchPage& page, const std::map<std::string, std::string>& numbers) {
-  return replaced(page.text, [&](const std::string& words) -> std::string {
+  return page::filled(page.text, [&](const std::string& words) -> std::string {
     const auto stage = std::ranges::find(page.stages, words, &BenchStage::name);
     if (stage != page.stages.end()) return command_of(*stage);
     const auto number = numbers.find(words);

@@ -127,13 +127,11 @@ class Comparison {
 
   /// A tighter tolerance is not tried where a looser one took all the time: its row is the looser
   /// one's, and says so.
-  static void take_late(const CompareRow& looser, CompareRow& row) {
-    const std::string key = row.key;
-    const double tolerance = row.tolerance;
-    row = looser;
-    row.key = key;
-    row.tolerance = tolerance;
-    row.note = printed("not tried: out of time to %g already", looser.tolerance);
+  static CompareRow late_row(CompareRow looser, const CompareRow& row) {
+    looser.note = printed("not tried: out of time to %g already", looser.tolerance);
+    looser.key = row.key;
+    looser.tolerance = row.tolerance;
+    return looser;
   }
 
   /// The row that is there already, or one that is made now and kept; unsolved ones are not
@@ -148,7 +146,7 @@ class Comparison {
     if (!was_there) {
       const auto looser = late_.find(who);
       if (looser != late_.end() && looser->second.tolerance > row.tolerance)
-        take_late(looser->second, row);
+        row = late_row(looser->second, row);
       else
         solve_case(solver, loaded, options_.limits, row);
       // an interrupt reaches the child as well: what it left is no result

@@ -207,6 +207,19 @@ Text marked(std::string_view notation, const Values& values) {
   return Notation(notation, values).read();
 }
 
+std::string filled(std::string_view document,
+                   const std::function<std::string(const std::string& words)>& value) {
+  std::string result;
+  while (true) {
+    const size_t open = document.find("{{"), close = document.find("}}", open);
+    result.append(document.substr(0, open));
+    if (open == std::string_view::npos) return result;
+    if (close == std::string_view::npos) throw std::logic_error("{{ without }}");
+    result += value(std::string(document.substr(open + 2, close - open - 2)));
+    document.remove_prefix(close + 2);
+  }
+}
+
 std::string plain_words(const Text& text) {
   std::string words;
   for (const Span& span : text.spans) {

@@ -8,6 +8,7 @@
 // and users cannot become markup. Only marked() reads the notation; it is given literals of this
 // program and its text files (words), never anything from outside.
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -59,6 +60,11 @@ using Values = std::map<std::string, Text>;
 /// Throws std::logic_error on a mark that isn't closed or a value that is missing: these are faults
 /// of the program.
 Text marked(std::string_view notation, const Values& values = {});
+
+/// A document in which each {{words}} is replaced by what `value` makes of the words. Throws
+/// std::logic_error: "{{ without }}".
+std::string filled(std::string_view document,
+                   const std::function<std::string(const std::string& words)>& value);
 
 /// Words alone: titles, file names, tests. Powers keep their height (10⁻⁴) where Unicode has it.
 std::string plain_words(const Text& text);

@@ -60,17 +60,11 @@ bool typeset(const fs::path& folder, const std::string& suffix, std::vector<std:
 }  // namespace
 
 std::string article_of(std::string_view prose, const page::Values& numbers) {
-  std::string result;
-  while (true) {
-    const size_t open = prose.find("{{"), close = prose.find("}}", open);
-    if (open == std::string_view::npos) return result.append(prose);
-    if (close == std::string_view::npos) throw Error("article.md: {{ without }}");
-    const std::string name(prose.substr(open + 2, close - open - 2));
+  return page::filled(prose, [&](const std::string& name) {
     const auto number = numbers.find(name);
     if (number == numbers.end()) throw Error("article.md: the report has no number " + name);
-    result.append(prose.substr(0, open)).append(pandoc_of(number->second));
-    prose.remove_prefix(close + 2);
-  }
+    return pandoc_of(number->second);
+  });
 }
 
 std::string article_of(const std::vector<PaperSection>& sections) {

@@ -48,6 +48,13 @@ TEST_CASE("faults of a notation are said with the text") {
     CHECK_THROWS_WITH(marked(wrong), Contains(wrong));
 }
 
+TEST_CASE("a document is filled where it asks, and with nothing that it does not ask for") {
+  const auto twice = [](const std::string& words) { return words + words; };
+  CHECK(page::filled("{{a}} and {{b c}}, {d} }}", twice) == "aa and b cb c, {d} }}");
+  CHECK(page::filled("{{x}}", [](const std::string&) { return "{{y}}"; }) == "{{y}}");
+  CHECK_THROWS_WITH(page::filled("{{a}} {{b", twice), "{{ without }}");
+}
+
 TEST_CASE("plain words") {
   const Text text = marked("*f*~max~ = 2×10^−4^ N & x^a^\n");
   CHECK(plain_words(text) == "f_max = 2×10⁻⁴ N & x^a ");
