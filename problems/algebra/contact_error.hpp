@@ -63,8 +63,8 @@ class ContactJudge {
  public:
   ContactError judge(const FrictionProblem& problem, const Impulses& r);
 
-  /// ContactError::fclib alone, in a third of the time. `free_norm`: |q|, for the problem at hand
-  /// found where it is negative, and kept. The same as judge()'s but for rounding.
+  /// ContactError::fclib alone: what a solver's look needs. `free_norm`: |q|, for the problem at
+  /// hand found where it is negative, and kept. The same as judge()'s but for rounding.
   double fclib(const FrictionProblem& problem, const Impulses& r, double& free_norm);
 
   /// v = v_free + M^-1 H^T r of the answer judged last (dynamics form): what the step goes on with.

@@ -55,10 +55,11 @@ TEST_CASE("with the greatest friction a claim is as good as with any") {
 }
 
 TEST_CASE("W is judged as it is stored, symmetric or not") {
-  int solved = 0;
+  int solved = 0, backends = 0;
   for (const SolverEntry& entry : solver_list()) {
     if (!entry.make) continue;
     CAPTURE(entry.name);
+    ++backends;
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       const FrictionProblem problem = gyroscopic(0.16, seed);
       const std::optional<SolverRun> result = run(entry, problem, brief);
@@ -80,5 +81,5 @@ TEST_CASE("W is judged as it is stored, symmetric or not") {
       }
     }
   }
-  CHECK(solved >= 18);  // by the six kinds of sweeps, which every build has
+  CHECK(solved > 2 * backends);  // of three problems each, whichever backends a build has
 }

@@ -8,7 +8,7 @@ TEST_CASE(
     "killed at random, a run, a deposit and a comparison end with the bits of undisturbed ones") {
   const ProgramResult result = run_program(
       BALLAST_SOURCE_FOLDER "/scripts/kill_harness.sh",
-      {"--ballast", BALLAST_PROGRAM, "--kills", "3", "--only", "run deposit compare"}, 600.0);
+      {"--ballast", BALLAST_PROGRAM, "--kills", "6", "--only", "run deposit compare"}, 600.0);
   INFO(result.output << result.errors);
   CHECK(result.status == 0);
   CHECK(result.errors.empty());

@@ -176,6 +176,7 @@ TEST_CASE("every part begins at the best iterate, and has what the others left")
   course.run([](Impulses start, const Budget& left) {
     CHECK(start == Impulses::Constant(3, 1.0));
     CHECK(left.max_iterations == 50);
+    CHECK(left.keep_history);
     return part(10, 3.0, 0.25)(start, left);
   });
   CHECK(course.count() == 60);
@@ -209,6 +210,10 @@ TEST_CASE("a course is over at the tolerance, at a limit, or where nothing is fi
   CHECK(end_of(reached, true) == StopReason::reached_tolerance);
   // A part that fails leaves the best.
   Course failed = course_at(0.4);
+  failed.run([](Impulses start, const Budget& left) {
+    CHECK_FALSE(left.keep_history);  // nobody asked for it
+    return part(0, 1.0, 0.5)(start, left);
+  });
   failed.run(part(3, 1.0, std::numeric_limits<double>::quiet_NaN(), StopReason::numerical_failure));
   CHECK(failed.best() == Impulses::Zero(1));
   CHECK(end_of(failed, false) == StopReason::stalled);
