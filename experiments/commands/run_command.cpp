@@ -10,6 +10,7 @@
 #include "experiments/box/packing.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/measure/run_data.hpp"
+#include "experiments/paper/archive.hpp"
 #include "experiments/paper/article.hpp"
 #include "experiments/plans/plan_runner.hpp"
 #include "experiments/run/run.hpp"
@@ -188,11 +189,12 @@ ExitCode run_stages(const PaperData& data, const PaperOptions& options) {
 
 ExitCode reproduce(PaperOptions options) {
   const std::vector<PlannedRun> campaign = read_campaign(options.campaign);
-  std::vector<std::string> targets{"plan", "report", "article"};
+  std::vector<std::string> targets{"plan", "report", "article", "archive"};
   std::ranges::copy(paper_targets(campaign), std::back_inserter(targets));
   if (std::ranges::find(targets, options.target) == targets.end())
     throw UsageError("paper: '" + options.target + "' is none of " + joined(targets));
-  if (options.output.empty()) options.output = options.running.results / "report";
+  if (options.output.empty())
+    options.output = options.running.results / (options.target == "archive" ? "archive" : "report");
   PaperData known = data_of(campaign, options);
   if (known.foreign() > 0)
     std::cerr << "ballast: " << options.rows.string() << ": " << known.foreign()
@@ -205,6 +207,12 @@ ExitCode reproduce(PaperOptions options) {
     const ExitCode code = write_article(known, options.output, std::cerr);
     std::cout << "article in " << (options.output / "article.md").string() << std::endl;
     return code;
+  }
+  if (options.target == "archive") {
+    const ArchiveOrder order{options.campaign.plan, options.running.results / "packings",
+                             options.output};
+    std::cout << write_archive(known, order).string() << std::endl;
+    return ExitCode::ok;
   }
   require_own_folder(options.running.results, {"runs", "packings", "report"});
   // "report" draws what is there; every other target makes its runs first
@@ -304,11 +312,12 @@ Command paper_command() {
           "Reproduces the paper: runs, figures 3 to 13, one report",
           {{"target", &options->target,
             "What: all; a section (fig3 to fig13, curve, box ...) or a stage of the campaign; plan "
-            "(lists the runs); report, article (draw what is there, run nothing)",
+            "(lists the runs); report, article, archive (of what is there, run nothing)",
             required},
            {"--jobs N", &running.jobs, "Runs at a time", between(1, 4096)},
            {"--results DIR", &running.results, "The folder of runs"},
-           {"--output DIR", &options->output, "The folder of the report (<results>/report)"},
+           {"--output DIR", &options->output,
+            "The folder of the report (<results>/report) or of the archive (<results>/archive)"},
            {"--rows FILE", &options->rows,
             "A report's data/runs.csv: its runs are taken from there, not made again"},
            {"--max-seconds S", &running.max_seconds,

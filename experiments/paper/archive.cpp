@@ -1,0 +1,123 @@
+#include "experiments/paper/archive.hpp"
+
+#include <algorithm>
+
+#include "experiments/box/packing.hpp"
+#include "experiments/page/text.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
+#include "platform/error.hpp"
+#include "platform/program.hpp"
+#include "platform/text.hpp"
+#include "problems/scene/scene_file.hpp"
+
+namespace ballast {
+
+std::string archive_file(const std::string& name);  // of experiments/paper/archive
+std::string campaign_plan();
+std::string citation_text();
+std::string licence_text();
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string output_of(const std::string& program, const std::vector<std::string>& arguments) {
+  const ProgramResult result = run_program(program, arguments, /*seconds=*/300.0);
+  if (!result.succeeded()) throw Error("paper archive: " + program + ": " + result.errors);
+  return result.output;
+}
+
+/// 64 digits.
+std::string sha256_of(const fs::path& file) {
+  return output_of("sha256sum", {"--", file.string()}).substr(0, 64);
+}
+
+/// What stands in its files, by the path within the archive.
+using Files = std::map<std::string, std::string>;
+
+/// One row for each packing that the campaign starts from.
+std::string packings_csv(const PaperData& data, const fs::path& folder) {
+  struct Start {
+    std::string scene, seed;
+    int runs = 0;
+  };
+  std::map<std::string, Start> starts;
+  std::set<std::string> counted;
+  for (const PlannedRun& run : data.campaign()) {
+    if (!counted.insert(run.key).second) continue;
+    Start& start = starts[run.packing];
+    start.scene = run.scene;
+    for (const std::string& word : run.overrides)
+      if (word.starts_with("grains.seed=")) start.seed = word.substr(word.find('=') + 1);
+    ++start.runs;
+  }
+  CsvWriter csv;
+  csv.add_row(std::vector<std::string>{"packing", "scene", "seed", "runs", "sha256"});
+  for (const auto& [key, start] : starts) {
+    const fs::path file = packing_file(folder, key);
+    csv.add_row(std::vector<std::string>{key, start.scene, start.seed, std::to_string(start.runs),
+                                         is_there(file) ? sha256_of(file) : ""});
+  }
+  return csv.take();
+}
+
+Files files_of(PaperData& data, const ArchiveOrder& order) {
+  const std::vector<RunRow>& rows = data.rows();
+  Files files{{"CITATION.cff", citation_text()},
+              {"LICENSE", licence_text()},
+              {"campaign.toml", order.plan.empty() ? campaign_plan() : read_whole_file(order.plan)},
+              {"runs.csv", runs_csv(rows)},
+              {"columns.csv", run_columns_csv()},
+              {"packings.csv", packings_csv(data, order.packings)},
+              {"curve.py", archive_file("curve.py")}};
+  std::set<std::string> scenes;
+  for (const PlannedRun& run : data.campaign()) scenes.insert(run.scene);
+  for (const std::string& scene : scenes) {
+    const fs::path file = find_scene(scene);
+    files["scenes/" + file.filename().string()] = read_whole_file(file);
+  }
+  std::set<std::string> known;
+  for (const PlannedRun& run : data.campaign())
+    if (data.knows(run)) known.insert(run.key);
+  const std::map<std::string, std::string> facts{{"known", std::to_string(known.size())},
+                                                 {"planned", std::to_string(data.planned())},
+                                                 {"rows", std::to_string(rows.size())}};
+  files["README.md"] = page::filled(archive_file("README.md"),
+                                    [&](const std::string& name) { return facts.at(name); });
+  return files;
+}
+
+}  // namespace
+
+fs::path write_archive(PaperData& data, const ArchiveOrder& order) {
+  const std::string name = "ballast-paper";
+  const fs::path folder = order.output / name, packed = order.output / (name + ".tar.gz");
+  require_own_folder(folder, {"scenes"});
+  create_folder(folder / "scenes");
+  std::string sums;
+  std::vector<std::string> members;
+  for (const auto& [member, text] : files_of(data, order)) {
+    write_whole_file(folder / member, text);
+    sums += sha256_of(folder / member) + "  " + member + "\n";
+    members.push_back(name + "/" + member);
+  }
+  write_whole_file(folder / "SHA256SUMS", sums);
+  members.push_back(name + "/SHA256SUMS");
+  // no owner, no date: the same rows are the same bytes
+  std::vector<std::string> words{"--create",
+                                 "--file=" + packed.string(),
+                                 "--use-compress-program=gzip -n",
+                                 "--owner=0",
+                                 "--group=0",
+                                 "--numeric-owner",
+                                 "--mode=u=rw,go=r",
+                                 "--mtime=@0",
+                                 "--directory=" + order.output.string(),
+                                 "--"};
+  words.insert(words.end(), members.begin(), members.end());
+  output_of("tar", words);
+  return packed;
+}
+
+}  // namespace ballast
