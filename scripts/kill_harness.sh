@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Kills the program with -9 at random moments of what it can be doing - run, deposit, plan, compare,
-# paper - and lets it go on, again and again, until each ends. What it leaves must have the bits of
-# an undisturbed one.
+# paper, collect, archive - and lets it go on, again and again, until each ends. What it leaves must
+# have the bits of an undisturbed one.
 #
 #   scripts/kill_harness.sh [--kills N] [--seed S] [--only "run compare"] [--ballast PROGRAM]
 #                           [--report FILE]
@@ -10,7 +10,7 @@
 # FILE. Exit code 1 when anything differs, or when the program ends in another way than by success.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-kills=100 seed=1 only="run deposit plan compare paper" report=
+kills=100 seed=1 only="run deposit plan compare paper collect archive" report=
 ballast=$root/build/default/bin/ballast
 while [ $# -gt 0 ]; do
   case $1 in
@@ -41,6 +41,16 @@ vary."drive.frequency" = [5, 20]
 vary."grains.seed" = [1, 2]
 PLAN
 
+cat >"$folder/collection.toml" <<'LIST'
+[[family]]
+name = "jammed"
+scene = "vibrated_box_small"
+set = ["record.forces=false", "grains.count=20", "box.length=0.14", "box.width=0.14",
+  "scene.duration=0.05", "record.checkpoint_seconds=0.02"]
+vary = [["contact.friction=0.2", "contact.friction=0.4"]]
+steps = "every=50,steps=1"
+LIST
+
 # begin ACTIVITY FOLDER: becomes the program at this work.
 begin() {
   case $1 in
@@ -54,6 +64,9 @@ begin() {
         --output "$2" ;;
     paper) exec "$ballast" paper fig3 --jobs 1 --only 'motion*seed=1' --set solver.max_iterations=5 --scene vibrated_box_small \
         "${small[@]}" --results "$2" ;;
+    collect) exec "$ballast" compare collect --list "$folder/collection.toml" --output "$2/c" ;;
+    archive) exec "$ballast" paper archive --rows "$root/docs/measured/campaign_runs.csv" \
+        --results "$2/none" --output "$2/archive" ;;
   esac
 }
 
@@ -69,6 +82,8 @@ columns() {
 bits() {
   (cd "$2" && case $1 in
     compare) columns results.csv 'seconds|memory|runs|key|note' | md5sum ;;
+    collect) find c/problems -type f | sort | xargs md5sum; columns c/manifest.csv second | md5sum ;;
+    archive) find archive -type f | sort | xargs md5sum ;;
     *)
       find . -name poses.bin -o -name checkpoint.bin -o -name 'packing-*.bin' -o -name 'step_*.bin' |
         sort | xargs -r md5sum

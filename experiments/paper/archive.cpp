@@ -92,7 +92,8 @@ Files files_of(PaperData& data, const ArchiveOrder& order) {
 
 fs::path write_archive(PaperData& data, const ArchiveOrder& order) {
   const std::string name = "ballast-paper";
-  const fs::path folder = order.output / name, packed = order.output / (name + ".tar.gz");
+  const fs::path folder = order.output / name, packed = order.output / (name + ".tar.gz"),
+                 neighbour = packed.string() + ".tmp";
   require_own_folder(folder, {"scenes"});
   create_folder(folder / "scenes");
   std::string sums;
@@ -106,7 +107,7 @@ fs::path write_archive(PaperData& data, const ArchiveOrder& order) {
   members.push_back(name + "/SHA256SUMS");
   // no owner, no date: the same rows are the same bytes
   std::vector<std::string> words{"--create",
-                                 "--file=" + packed.string(),
+                                 "--file=" + neighbour.string(),
                                  "--use-compress-program=gzip -n",
                                  "--owner=0",
                                  "--group=0",
@@ -117,6 +118,7 @@ fs::path write_archive(PaperData& data, const ArchiveOrder& order) {
                                  "--"};
   words.insert(words.end(), members.begin(), members.end());
   output_of("tar", words);
+  fs::rename(neighbour, packed);
   return packed;
 }
 
