@@ -11,8 +11,9 @@ namespace {
 constexpr int spins = 200;
 /// Then, between two looks at the clock of whoever waits.
 constexpr int looks = 16;
-/// Longer than the gap between two loops of a solve, shorter than the rest of a time step [s].
-constexpr double wakeful = 3e-4;
+/// Longer than what one thread does alone between two phases of a time step: waking up takes longer
+/// than a short phase [s].
+constexpr double wakeful = 2e-3;
 
 inline void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -46,7 +47,7 @@ void WorkerTeam::resize(int threads) {
   threads = threads < 1 ? 1 : threads;
   if (threads == members_) return;
   stop();
-  members_ = threads;
+  members_ = size_ = threads;
   shares_ = std::make_unique<Share[]>(static_cast<size_t>(threads));
   // Taken here, not by the thread: one that starts late must not miss the first round.
   const Marked seen = task_.round.load();
@@ -63,7 +64,7 @@ void WorkerTeam::stop() {
   for (std::thread& worker : workers_) worker.join();
   workers_.clear();
   ends_ = false;
-  members_ = 1;
+  members_ = size_ = 1;
 }
 
 void WorkerTeam::start(int parts, Call call, const void* context) {
@@ -124,6 +125,22 @@ void WorkerTeam::work(int member, Marked seen) {
     if (ends_) return;
     do_parts(member, now);
   }
+}
+
+void TeamPace::took(double seconds, double amount) {
+  if (seconds > long_work) {
+    is_whole_ = true;
+    round_ = 0;
+    return;
+  }
+  const double unit = seconds / amount;
+  const int place = round_ % trial;
+  if (round_ < 2 * trial && place > 0) {
+    double& least = is_whole_ ? whole_ : alone_;
+    least = place == 1 ? unit : std::min(least, unit);
+  }
+  round_ = round_ + 1 < 2 * trial + apart ? round_ + 1 : 0;
+  is_whole_ = round_ < trial || (round_ >= 2 * trial && whole_ <= worth_it * alone_);
 }
 
 }  // namespace ballast

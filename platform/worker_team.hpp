@@ -23,15 +23,19 @@ class WorkerTeam {
   WorkerTeam(const WorkerTeam&) = delete;
   WorkerTeam& operator=(const WorkerTeam&) = delete;
 
-  /// `threads` >= 1, the caller among them. Only between tasks.
+  /// `threads` >= 1, the caller among them: all of them work. Only between tasks.
   void resize(int threads);
-  int size() const { return members_; }
+  /// Who works from now on: everybody, or the caller alone, as if there were no others. Only
+  /// between tasks.
+  void let_work(bool everybody) { size_ = everybody ? members_ : 1; }
+  /// Of those who work.
+  int size() const { return size_; }
 
   /// task(part) for every part in [0, parts), each on one thread, and returns when all are done.
   /// `task` must not throw.
   template <typename Task>
   void run(int parts, const Task& task) {
-    if (members_ == 1 || parts < 2) {
+    if (size_ == 1 || parts < 2) {
       for (int part = 0; part < parts; ++part) task(part);
       return;
     }
@@ -66,13 +70,40 @@ class WorkerTeam {
   void stop();
 
   std::vector<std::thread> workers_;
-  int members_ = 1;
+  int members_ = 1, size_ = 1;
   std::unique_ptr<Share[]> shares_;
   Task task_;
   alignas(64) std::atomic<int> left_{0};  // parts that are not done
   alignas(64) std::atomic<int> asleep_{0};
   std::atomic<std::uint32_t> bell_{0};  // what they sleep on
   std::atomic<bool> ends_{false};       // one who is late for a round reads it while stop() sets it
+};
+
+/// For work that comes again and again, step by step: is it done faster by the whole team, or by
+/// the caller alone? Where cores are far from each other, or are two halves of one, short work can
+/// be slower in company. Both are tried for some rounds, then the faster works until they are tried
+/// anew.
+class TeamPace {
+ public:
+  /// Before the work: calls who shall do it. Null: nobody but the caller is there.
+  void begin(WorkerTeam* team) const {
+    if (team) team->let_work(is_whole_);
+  }
+  /// After it: how long it took [s], and how much of it there was, in any unit.
+  void took(double seconds, double amount = 1.0);
+  bool is_whole() const { return is_whole_; }
+
+ private:
+  static constexpr int trial = 4;    ///< rounds by each; in the first one caches fill: not counted
+  static constexpr int apart = 120;  ///< rounds between two trials
+  /// Company has to gain this much, more than the trial's noise.
+  static constexpr double worth_it = 0.9;
+  /// Work of so many seconds is shared without a trial: what sharing costs is a small part of it.
+  static constexpr double long_work = 0.02;
+
+  bool is_whole_ = true;
+  int round_ = 0;
+  double whole_ = 0.0, alone_ = 0.0;  ///< least seconds of one unit in the trial
 };
 
 /// Of no team the caller is the only member.

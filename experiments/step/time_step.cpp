@@ -237,14 +237,21 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
       state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
   // contacts are found at the mid-point, half a step of free flight away
   record.seconds_other = clock.restart();
+  detect_pace_.begin(team_.get());
   detect(state, memory);
   record.seconds_detect = clock.restart();
+  detect_pace_.took(record.seconds_detect);
   free_motion(state, mid_time);
   record.seconds_other += clock.restart();
+  solve_pace_.begin(team_.get());  // assembled by those who solve, whose cores then have it
   assembler_.assemble({state, contacts_, problem_.dynamics.v_free, h, end_time}, problem_);
   record.seconds_assemble = clock.restart();
   solve(memory, record);
   record.seconds_judge = clock.restart() - record.seconds_solve;
+  // about so many iterations cost as much as what goes before and behind them
+  constexpr double around = 30.0;
+  solve_pace_.took(record.seconds_assemble + record.seconds_solve + record.seconds_judge,
+                   record.iterations + around);
 
   // the books are closed before the poses move on
   account_energy(mid_time, record);

@@ -65,6 +65,7 @@ class TimeStepper {
   SolverSpec spec_;
   int driven_wall_;
   std::unique_ptr<WorkerTeam> team_;  // null: one thread
+  TeamPace detect_pace_, solve_pace_;
   ContactDetector detector_;
   ProblemAssembler assembler_;
   OverlapCorrection correction_;

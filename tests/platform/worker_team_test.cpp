@@ -106,3 +106,56 @@ TEST_CASE("a team grows, shrinks and sleeps between two tasks") {
   std::this_thread::sleep_for(std::chrono::milliseconds(20));  // they sleep by now
   CHECK(visits(&team, 9, 20) == std::vector<int>(9, 20));
 }
+
+TEST_CASE("the caller works alone when it is told so, and the others again when they are") {
+  WorkerTeam team;
+  team.resize(3);
+  for (const bool everybody : {false, true, false}) {
+    team.let_work(everybody);
+    CHECK(team.size() == (everybody ? 3 : 1));
+    std::vector<std::thread::id> who(9);
+    for (int round = 0; round < 50; ++round)
+      team.run(9, [&](int part) { who[part] = std::this_thread::get_id(); });
+    if (!everybody)
+      CHECK(std::set<std::thread::id>(who.begin(), who.end()) ==
+            std::set<std::thread::id>{std::this_thread::get_id()});
+  }
+}
+
+TEST_CASE("short work is done by whoever was faster when both were tried, long work by everybody") {
+  WorkerTeam team;
+  team.resize(2);
+  // One unit takes so long by everybody, and by the caller alone [s].
+  const auto share_by_everybody = [&](double whole, double alone, double amount) {
+    TeamPace pace;
+    int rounds = 0;
+    for (int round = 0; round < 1280; ++round) {
+      pace.begin(&team);
+      CHECK(pace.is_whole() == (team.size() == 2));
+      rounds += pace.is_whole();
+      pace.took(amount * (pace.is_whole() ? whole : alone), amount);
+    }
+    return rounds / 1280.0;
+  };
+  CHECK(share_by_everybody(1e-3, 2e-3, 1.0) > 0.95);
+  CHECK(share_by_everybody(2e-3, 1e-3, 1.0) < 0.05);
+  CHECK(share_by_everybody(2e-5, 1e-5, 100.0) < 0.05);
+  // nobody tries what takes long
+  CHECK(share_by_everybody(0.05, 0.01, 1.0) == 1.0);
+  // where there is no team nothing is called
+  TeamPace().begin(nullptr);
+}
+
+TEST_CASE("what became faster in company is done in company after the next trial") {
+  TeamPace pace;
+  WorkerTeam team;
+  team.resize(2);
+  int last = 0;
+  for (int round = 0; round < 640; ++round) {
+    pace.begin(&team);
+    const double whole = round < 200 ? 2e-3 : 0.5e-3;
+    if (round >= 400) last += pace.is_whole();
+    pace.took(pace.is_whole() ? whole : 1e-3);
+  }
+  CHECK(last > 220);
+}
