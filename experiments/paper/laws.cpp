@@ -17,14 +17,12 @@ struct Series {
   RunMeasure along = "";        ///< what is varied
   const char* title = nullptr;  ///< in the legend, in the notation of page::marked()
 };
-/// What Eq. 3 has: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11. Rows of
-/// 23 November 2026 and before have g and m_w in one stage.
+/// What Eq. 3 has: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11.
 const std::vector<Series> all_series{
     {"ν", "frequency; slowest", Ink::blue, MarkShape::triangle, "frequency", "ν"},
     {"f_max", "force", Ink::vermilion, MarkShape::circle, "force_over_weight", "f~max~"},
-    {"g", "gravity; gravity-mass gravity!9.81", Ink::green, MarkShape::square, "gravity", "g"},
-    {"m_w", "mass; gravity-mass gravity=9.81", Ink::purple, MarkShape::diamond, "grain_share",
-     "m~w~"}};
+    {"g", "gravity", Ink::green, MarkShape::square, "gravity", "g"},
+    {"m_w", "mass", Ink::purple, MarkShape::diamond, "grain_share", "m~w~"}};
 
 /// Settings so near to one another are the same: the base run of all series is known again.
 bool are_same(const RunRow& a, const RunRow& b) {
@@ -79,12 +77,8 @@ LogPolynomial polynomial(const std::vector<CurvePoint>& points, int values, doub
   return result;
 }
 
-VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error) {
-  if (error.degrees_of_freedom < 1) return {};
-  return {fit.reduced(), f_p(fit.reduced(), fit.degrees_of_freedom, error.degrees_of_freedom)};
-}
-
 constexpr double to_mm = 1e3;
+constexpr double least_load = 2.0;  ///< f_max/(m g)
 
 /// Half width of the 95 % interval of a combination of the curve's values: the errors are the
 /// pooled ones.
@@ -220,8 +214,7 @@ std::vector<Law> all_laws() {
       fast{"20 Hz", "box frequency=20", Ink::vermilion};
   // a run of several families is a point of the first
   const std::vector<Series> everything{
-      {"ν", "frequency; slowest; tight; tightest; deposits lid_pressure>0 deposit_friction=0.4",
-       Ink::blue},
+      {"ν", "frequency; slowest; tightest", Ink::blue},
       {"f_max", "force", Ink::vermilion, triangle},
       all_series[2],
       all_series[3],
@@ -316,6 +309,21 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
                   {.value = ratio.factor, .low = ratio.low, .high = ratio.high});
 }
 
+/// The curve without loads near the weight, for which f_max >> f_g does not hold.
+void report_larger_loads(const std::vector<Groups>& groups, PaperSection& section) {
+  std::vector<Groups> larger = groups;
+  for (Groups& series : larger)
+    std::erase_if(series, [](const Group& group) {
+      return (*group.samples.front())["force_over_weight"] < least_load;
+    });
+  const OneCurve curve = one_curve(larger);
+  section.report("curve.loads", {{"load", page::number(least_load, 2)},
+                                 {"points", std::to_string(curve.points.size())},
+                                 {"curve", words_of(curve.curve_misfit)},
+                                 {"paired", words_of(curve.paired_misfit)},
+                                 {"line", words_of(curve.line_misfit)}});
+}
+
 }  // namespace
 
 Eigen::VectorXd LogPolynomial::row(double x) const {
@@ -333,6 +341,11 @@ Eigen::VectorXd LogPolynomial::slope_row(double x) const {
 }
 
 double LogPolynomial::at(double x) const { return std::exp(fit.at(row(x))); }
+
+VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error) {
+  if (error.degrees_of_freedom < 1) return {};
+  return {fit.reduced(), f_p(fit.reduced(), fit.degrees_of_freedom, error.degrees_of_freedom)};
+}
 
 OneCurve one_curve(const std::vector<Groups>& groups) {
   OneCurve all;
@@ -383,44 +396,8 @@ void fill_curve(PaperData& data, PaperSection& section) {
                 Found::about(all.largest_offset, half, all.curve_misfit.p));
   section.report("curve.shape", words);
   section.report("curve.bend", words);
-}
-
-void fill_theory(PaperData& data, PaperSection& section) {
-  Groups groups = data.settings(
-      "frequency; slowest; force; gravity; mass; gravity-mass; box; loads largest_size>0.04");
-  const auto log_mean = [](const Group& group, RunMeasure measure) {
-    return sample_mean(group.logs(measure)).mean;
-  };
-  std::erase_if(groups, [&](const Group& group) {
-    return !std::isfinite(log_mean(group, "prefactor") + log_mean(group, "prefactor_theory"));
-  });
-  const PooledError error = scatter_between(groups, "prefactor");
-  const auto count = static_cast<Eigen::Index>(groups.size());
-  if (count < 6 || error.degrees_of_freedom < 1) return;
-  // ln C on ln F/(m g), ln (m + m_w)/(m_w + M), and ln X besides
-  Eigen::MatrixXd design(count, 4);
-  Eigen::VectorXd y(count), errors(count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Group& group = groups[k];
-    const double force = log_mean(group, "push_over_weight");
-    design.row(k) << 1.0, force, log_mean(group, "prefactor_theory") - 2.0 * force,
-        log_mean(group, "eq3");
-    y[k] = log_mean(group, "prefactor");
-    errors[k] = error.deviation / std::sqrt(static_cast<double>(group.samples.size()));
-  }
-  const WeightedFit free = fit_weighted(design.leftCols(3), y, errors),
-                    more = fit_weighted(design, y, errors);
-  const double t95 = student_t95(error.degrees_of_freedom);
-  const auto exponent = [&](const WeightedFit& fit, Eigen::Index k) {
-    const Eigen::VectorXd row = Eigen::VectorXd::Unit(fit.value.size(), k);
-    return words_of(Found::about(fit.at(row), t95 * fit.error_at(row)));
-  };
-  section.report("theory.free", {{"points", std::to_string(count)},
-                                 {"force", exponent(free, 1)},
-                                 {"mass", exponent(free, 2)},
-                                 {"misfit", words_of(misfit_of(free, error))},
-                                 {"x", exponent(more, 3)},
-                                 {"gain", words_of(improvement(free, more), "F")}});
+  report_larger_loads(groups, section);
+  report_box(data, section);
 }
 
 void add_laws(PaperData& data, PaperSection& section) {

@@ -44,6 +44,12 @@ struct OneCurve {
 /// `groups`: a list for each series, the values of one thing that Eq. 3 has.
 OneCurve one_curve(const std::vector<Groups>& groups);
 
+/// chi^2 over the degrees of freedom of a fit whose errors are the pooled one.
+VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error);
+
+/// A finding: C with the shape of the box as a second variable beside X.
+void report_box(PaperData& data, PaperSection& section);
+
 /// The force of the grains over m g that gives this C in the limit f_max >> f_g, when the wall and
 /// all grains move together: C = (9/4 pi^2) (F/m g)^2.
 double force_of_prefactor(double prefactor);

@@ -140,7 +140,8 @@ class PaperData {
   std::vector<const RunRow*> rows(const Selection& selection);
   /// By growing value of `along`; one row for each sample: the first.
   Groups groups(const Selection& selection, RunMeasure along);
-  /// A group for each setting, whatever was varied: rows whose names differ in the seed alone.
+  /// A group for each setting, whatever was varied: rows whose names differ in the seed alone. A
+  /// run that several stages share belongs to the first.
   Groups settings(const Selection& selection);
 
   /// The records of a stage's finished runs at a frequency (any, where NaN).

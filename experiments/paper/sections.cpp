@@ -151,7 +151,9 @@ std::span<const ReportSection> paper_sections() {
       {"laws", {"laws"}},
       {"sensitivity", {"sensitivity"}},
       {"reading", {"reading", "frequency", "slowest"}, fill_reading},
-      {"theory", {"frequency", "force", "gravity", "mass", "box", "loads"}, fill_theory}};
+      {"theory",
+       {"frequency", "force", "gravity", "mass", "box", "loads", "preparation"},
+       fill_theory}};
   return table;
 }
 
@@ -217,10 +219,11 @@ void PaperSection::claim(const std::string& name, const page::Values& values,
                          const PaperRange& range, const Found& found) {
   page::Values cited = values;
   cited["found"] = words_of(found);
+  cited["verdict"] = word_of(agreement_of(range, found));
   keep(name, cited);
   const std::vector<page::Text> cells = parts_of(page::words(name, values), "||");
-  claims.push_back({cells.at(0), cells.at(1), word_of(agreement_of(range, found)), cells.at(2),
-                    words_of(range), words_of(found)});
+  claims.push_back(
+      {cells.at(0), cells.at(1), cited["verdict"], cells.at(2), words_of(range), words_of(found)});
 }
 
 void PaperSection::report(const std::string& name, const page::Values& values) {

@@ -14,7 +14,7 @@
 namespace ballast {
 
 // One rule that says whether Ballast and the paper agree. It is applied to every row of the
-// report's first table; docs/manual/paper.md states it in words.
+// report's first table; words("paper.rule") say it.
 //
 // The paper's words are a range of values, Ballast's a value with its 95 % interval.
 //   agrees    the value lies in the range, its interval within three times the range, the law whose

@@ -25,7 +25,7 @@ TEST_CASE("the published article has the numbers of the published rows") {
   const TemporaryFolder folder;  // no run is there: the rows alone speak
   const std::filesystem::path docs = BALLAST_SOURCE_FOLDER "/docs";
   PaperData data(read_campaign({}), folder.path(),
-                 read_runs_csv(docs / "measured" / "decisive_runs.csv"));
-  // `ballast paper article --rows docs/measured/decisive_runs.csv --output docs/article`
+                 read_runs_csv(docs / "measured" / "campaign_runs.csv"));
+  // `ballast paper article --rows docs/measured/campaign_runs.csv --output docs/article`
   CHECK(article_of(make_sections(data, "all")) == read_whole_file(docs / "article" / "article.md"));
 }

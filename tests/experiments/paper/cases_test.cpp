@@ -7,26 +7,6 @@
 
 using namespace ballast;
 
-namespace {
-
-bool is_of_two(const PlannedRun&, const Scene& scene) { return scene.grains->seed <= 2; }
-
-PaperSection section_named(PaperData& data, const std::string& name) {
-  for (PaperSection& section : make_sections(data, name))
-    if (section.id == name) return section;
-  FAIL("no section " + name);
-  return {};
-}
-
-PaperLaw steep_law(double excess) {
-  PaperLaw law;
-  law.prefactor = 0.2;  // far above the drift of a micrometre a period
-  law.excess = [excess](const Scene&) { return excess; };
-  return law;
-}
-
-}  // namespace
-
 TEST_CASE("exponents of samples, and what a case changes") {
   const TemporaryFolder folder;
   // The rough deposits' walls go out a quarter farther.
@@ -142,54 +122,4 @@ TEST_CASE("each preparation stands beside the paper's numbers, each window of co
   REQUIRE(compaction.figures.size() == 1);
   CHECK(compaction.figures[0].plot.panels[0].curves.size() == 3);
   CHECK(found_of(compaction, "compaction rate, 0.5–1.5 s").starts_with("largest at "));
-}
-
-TEST_CASE("C against its theory: the force that the grains push with gives it, point by point") {
-  const TemporaryFolder folder;
-  PaperLaw law = steep_law(0.0);
-  law.offset = 200.0;
-  law.slope = 0.4;
-  PaperData data = written(folder.path(), {"frequency", "slowest", "mass", "box"}, law, is_of_two);
-  // F = 200 N/(1 - 0.4), M = m_w 0.4/(1 - 0.4), 200 kg of grains
-  const auto theory = [](double wall) {
-    const double force = 200.0 / 0.6 / (200.0 * 9.81), carried = wall * 0.4 / 0.6;
-    return 9.0 / (4.0 * M_PI * M_PI) * force * force * (1.0 + wall) / (wall + carried);
-  };
-  for (const RunRow* row : data.rows("mass"))
-    CHECK((*row)["prefactor_theory"] ==
-          Approx(theory((*row)["wall_mass_over_grains"])).epsilon(0.02));
-  const PaperSection section = section_named(data, "theory");
-  REQUIRE(section.figures.size() == 1);
-  // ten frequencies, three masses of the wall beside the one that they share, five boxes twice
-  size_t points = 0;
-  for (const std::vector<page::Text>& row : section.tables[0].rows) {
-    points += std::stoul(plain_words(row[2]));
-    if (plain_words(row[1]) == "L/H")
-      CHECK(std::stod(plain_words(row[5])) == Approx(law.prefactor / theory(0.5)).epsilon(0.03));
-  }
-  CHECK(points == 23);
-  CHECK_THAT(found_of(section, "C against its theory, 23 distinct points"),
-             Catch::StartsWith("C as seen is "));
-}
-
-TEST_CASE("what C goes with: the exponents that rows were made with are found again") {
-  std::vector<RunRow> rows;
-  for (int setting = 0; setting < 8; ++setting)
-    for (const int seed : {1, 2}) {
-      RunRow& row = rows.emplace_back();
-      row.stage = "frequency";
-      row.name = printed("frequency-%d-grains.seed=%d", setting, seed);
-      row.key = printed("%d-%d", setting, seed);
-      // force, mass and X vary apart from each other; seeds scatter by one per cent
-      const double force = 0.1 * (1 + setting % 4), mass = 1.0 + 0.5 * (setting / 4);
-      row["seed"] = seed;
-      row["push_over_weight"] = force;
-      row["prefactor_theory"] = 0.228 * force * force * mass;
-      row["eq3"] = 1e-3 * std::pow(10.0, setting % 3);
-      row["prefactor"] = 0.3 * std::pow(force, 1.7) * std::pow(mass, 0.9) * (0.995 + 0.01 * seed);
-    }
-  PaperData data({}, "nowhere", rows);
-  const std::string found = found_of(section_named(data, "theory"), "what C goes with");
-  CHECK_THAT(found, Catch::StartsWith("8 settings: F/(m g) to the power 1.70 "));
-  CHECK_THAT(found, Catch::Contains("(m + m_w)/(m_w + M) to 0.900 "));
 }

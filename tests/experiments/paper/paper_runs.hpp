@@ -118,4 +118,20 @@ inline std::string found_of(const PaperSection& section, const std::string& what
   return {};
 }
 
+inline bool is_of_two(const PlannedRun&, const Scene& scene) { return scene.grains->seed <= 2; }
+
+inline PaperSection section_named(PaperData& data, const std::string& name) {
+  for (PaperSection& section : make_sections(data, name))
+    if (section.id == name) return section;
+  FAIL("no section " + name);
+  return {};
+}
+
+inline PaperLaw steep_law(double excess) {
+  PaperLaw law;
+  law.prefactor = 0.2;  // far above the drift of a micrometre a period
+  law.excess = [excess](const Scene&) { return excess; };
+  return law;
+}
+
 }  // namespace ballast

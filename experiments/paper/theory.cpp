@@ -1,0 +1,115 @@
+// What C goes with: fits of its logarithm over settings that differ in anything, and C beside the
+// theory without a free parameter.
+
+#include <map>
+
+#include "experiments/paper/laws.hpp"
+
+namespace ballast {
+namespace {
+
+double log_mean(const Group& group, RunMeasure measure) {
+  return sample_mean(group.logs(measure)).mean;
+}
+
+/// ln C of settings against logarithms of what was measured or set, all errors the pooled one.
+class LogFits {
+ public:
+  /// Settings in which C or `needed` is not known are left out.
+  LogFits(Groups settings, RunMeasure needed) : settings_(std::move(settings)) {
+    std::erase_if(settings_, [&](const Group& group) {
+      return !std::isfinite(log_mean(group, "prefactor") + log_mean(group, needed));
+    });
+    error_ = scatter_between(settings_, "prefactor");
+  }
+
+  size_t size() const { return settings_.size(); }
+  bool is_known(size_t fewest) const { return size() >= fewest && error_.degrees_of_freedom > 0; }
+
+  /// One value for each setting.
+  Eigen::VectorXd log(RunMeasure measure) const {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(size()));
+    for (Eigen::Index k = 0; k < values.size(); ++k)
+      values[k] = log_mean(settings_[static_cast<size_t>(k)], measure);
+    return values;
+  }
+
+  /// On a constant (value 0) and these columns (values 1, 2 ...).
+  WeightedFit fit(const std::vector<Eigen::VectorXd>& columns) const {
+    const auto count = static_cast<Eigen::Index>(size());
+    Eigen::MatrixXd design = Eigen::MatrixXd::Ones(count, 1 + std::ssize(columns));
+    for (Eigen::Index k = 1; k < design.cols(); ++k)
+      design.col(k) = columns[static_cast<size_t>(k) - 1];
+    Eigen::VectorXd errors(count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      errors[k] = error_.deviation /
+                  std::sqrt(static_cast<double>(settings_[static_cast<size_t>(k)].samples.size()));
+    return fit_weighted(design, log("prefactor"), errors);
+  }
+  page::Text exponent(const WeightedFit& fit, Eigen::Index k) const {
+    const Eigen::VectorXd row = Eigen::VectorXd::Unit(fit.value.size(), k);
+    return words_of(
+        Found::about(fit.at(row), student_t95(error_.degrees_of_freedom) * fit.error_at(row)));
+  }
+  page::Text misfit(const WeightedFit& fit) const { return words_of(misfit_of(fit, error_)); }
+
+ private:
+  Groups settings_;
+  PooledError error_;
+};
+
+/// By how much C is more than the theory's, frequency by frequency, in every deposit that was
+/// driven.
+void report_factors(PaperData& data, PaperSection& section) {
+  std::map<double, std::vector<double>> factors, starts;  // by frequency: one for each deposit
+  for (const Group& group : data.settings("preparation")) {
+    const double frequency = (*group.samples.front())["frequency"];
+    factors[frequency].push_back(log_mean(group, "prefactor") -
+                                 log_mean(group, "prefactor_theory"));
+    starts[frequency].push_back(group.mean("yield_over_weight").mean);
+  }
+  for (const auto& [frequency, logs] : factors) {
+    const SampleMean mean = sample_mean(logs);
+    const Statistics start = statistics(starts[frequency]);
+    section.report("theory.deposits",
+                   {{"frequency", page::number(frequency)},
+                    {"deposits", std::to_string(mean.samples)},
+                    {"factor", page::number(std::exp(mean.mean))},
+                    {"scatter", page::number(100.0 * mean.deviation(), 2) + " %"},
+                    {"start_least", page::number(start.min, 2)},
+                    {"start_most", page::number(start.max, 2)}});
+  }
+}
+
+}  // namespace
+
+void report_box(PaperData& data, PaperSection& section) {
+  const LogFits all(data.settings("frequency; slowest; force force_over_weight>1.9; gravity; mass; "
+                                  "box; loads largest_size>0.04"),
+                    "aspect");
+  if (!all.is_known(8)) return;
+  const Eigen::VectorXd x = all.log("eq3");
+  const WeightedFit fit = all.fit({x, x.cwiseAbs2(), all.log("aspect")});
+  section.report("curve.box", {{"points", std::to_string(all.size())},
+                               {"aspect", all.exponent(fit, 3)},
+                               {"misfit", all.misfit(fit)}});
+}
+
+void fill_theory(PaperData& data, PaperSection& section) {
+  report_factors(data, section);
+  const LogFits all(data.settings("frequency; slowest; force; gravity; mass; box; loads "
+                                  "largest_size>0.04"),
+                    "prefactor_theory");
+  if (!all.is_known(6)) return;
+  const Eigen::VectorXd force = all.log("push_over_weight"),
+                        mass = all.log("prefactor_theory") - 2.0 * force;
+  const WeightedFit free = all.fit({force, mass}), more = all.fit({force, mass, all.log("eq3")});
+  section.report("theory.free", {{"points", std::to_string(all.size())},
+                                 {"force", all.exponent(free, 1)},
+                                 {"mass", all.exponent(free, 2)},
+                                 {"misfit", all.misfit(free)},
+                                 {"x", all.exponent(more, 3)},
+                                 {"gain", words_of(improvement(free, more), "F")}});
+}
+
+}  // namespace ballast
