@@ -45,6 +45,7 @@ WorkerTeam::~WorkerTeam() { stop(); }
 
 void WorkerTeam::resize(int threads) {
   threads = threads < 1 ? 1 : threads;
+  size_ = threads;
   if (threads == members_) return;
   stop();
   members_ = size_ = threads;

@@ -120,6 +120,8 @@ TEST_CASE("the caller works alone when it is told so, and the others again when 
       CHECK(std::set<std::thread::id>(who.begin(), who.end()) ==
             std::set<std::thread::id>{std::this_thread::get_id()});
   }
+  team.resize(3);
+  CHECK(team.size() == 3);
 }
 
 TEST_CASE("short work is done by whoever was faster when both were tried, long work by everybody") {
