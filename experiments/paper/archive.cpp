@@ -77,12 +77,10 @@ Files files_of(PaperData& data, const ArchiveOrder& order) {
     const fs::path file = find_scene(scene);
     files["scenes/" + file.filename().string()] = read_whole_file(file);
   }
-  std::set<std::string> known;
-  for (const PlannedRun& run : data.campaign())
-    if (data.knows(run)) known.insert(run.key);
-  const std::map<std::string, std::string> facts{{"known", std::to_string(known.size())},
-                                                 {"planned", std::to_string(data.planned())},
-                                                 {"rows", std::to_string(rows.size())}};
+  const std::map<std::string, std::string> facts{
+      {"known", std::to_string(data.finished() + data.known_by_row())},
+      {"planned", std::to_string(data.planned())},
+      {"rows", std::to_string(rows.size())}};
   files["README.md"] = page::filled(archive_file("README.md"),
                                     [&](const std::string& name) { return facts.at(name); });
   return files;

@@ -78,7 +78,6 @@ LogPolynomial polynomial(const std::vector<CurvePoint>& points, int values, doub
 }
 
 constexpr double to_mm = 1e3;
-constexpr double least_load = 2.0;  ///< f_max/(m g)
 
 /// Half width of the 95 % interval of a combination of the curve's values: the errors are the
 /// pooled ones.

@@ -12,7 +12,7 @@ struct CurvePoint {
   Group group;
   double x = not_known;  ///< X [m]
 
-  double log_rise() const { return sample_mean(group.logs("rise")).mean; }
+  double log_rise() const { return group.log_mean("rise"); }
 };
 
 /// ln Delta x_max as a polynomial of ln(X/X0), X0 the middle of the points.
@@ -46,6 +46,9 @@ OneCurve one_curve(const std::vector<Groups>& groups);
 
 /// chi^2 over the degrees of freedom of a fit whose errors are the pooled one.
 VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error);
+
+/// f_max/(m g) from which on f_max >> f_g is taken to hold.
+constexpr double least_load = 2.0;
 
 /// A finding: C with the shape of the box as a second variable beside X.
 void report_box(PaperData& data, PaperSection& section);

@@ -96,6 +96,7 @@ struct Group {
   SampleMean mean(RunMeasure measure) const { return sample_mean(values(measure)); }
   /// One logarithm of each sample.
   std::vector<double> logs(RunMeasure measure) const;
+  double log_mean(RunMeasure measure) const { return sample_mean(logs(measure)).mean; }
 };
 using Groups = std::vector<Group>;
 

@@ -4,12 +4,14 @@
 #include <map>
 
 #include "experiments/paper/laws.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 namespace {
 
-double log_mean(const Group& group, RunMeasure measure) {
-  return sample_mean(group.logs(measure)).mean;
+/// Settings of one kind of grains; `loads`: what those of Fig. 10 must say besides.
+Selection one_kind_of_grains(const std::string& loads) {
+  return "frequency; slowest; force " + loads + "; gravity; mass; box; loads largest_size>0.04";
 }
 
 /// ln C of settings against logarithms of what was measured or set, all errors the pooled one.
@@ -18,7 +20,7 @@ class LogFits {
   /// Settings in which C or `needed` is not known are left out.
   LogFits(Groups settings, RunMeasure needed) : settings_(std::move(settings)) {
     std::erase_if(settings_, [&](const Group& group) {
-      return !std::isfinite(log_mean(group, "prefactor") + log_mean(group, needed));
+      return !std::isfinite(group.log_mean("prefactor") + group.log_mean(needed));
     });
     error_ = scatter_between(settings_, "prefactor");
   }
@@ -30,7 +32,7 @@ class LogFits {
   Eigen::VectorXd log(RunMeasure measure) const {
     Eigen::VectorXd values(static_cast<Eigen::Index>(size()));
     for (Eigen::Index k = 0; k < values.size(); ++k)
-      values[k] = log_mean(settings_[static_cast<size_t>(k)], measure);
+      values[k] = settings_[static_cast<size_t>(k)].log_mean(measure);
     return values;
   }
 
@@ -64,8 +66,7 @@ void report_factors(PaperData& data, PaperSection& section) {
   std::map<double, std::vector<double>> factors, starts;  // by frequency: one for each deposit
   for (const Group& group : data.settings("preparation")) {
     const double frequency = (*group.samples.front())["frequency"];
-    factors[frequency].push_back(log_mean(group, "prefactor") -
-                                 log_mean(group, "prefactor_theory"));
+    factors[frequency].push_back(group.log_mean("prefactor") - group.log_mean("prefactor_theory"));
     starts[frequency].push_back(group.mean("yield_over_weight").mean);
   }
   for (const auto& [frequency, logs] : factors) {
@@ -84,9 +85,8 @@ void report_factors(PaperData& data, PaperSection& section) {
 }  // namespace
 
 void report_box(PaperData& data, PaperSection& section) {
-  const LogFits all(data.settings("frequency; slowest; force force_over_weight>1.9; gravity; mass; "
-                                  "box; loads largest_size>0.04"),
-                    "aspect");
+  const std::string loads = printed("force_over_weight>%g", 0.99 * least_load);
+  const LogFits all(data.settings(one_kind_of_grains(loads)), "aspect");
   if (!all.is_known(8)) return;
   const Eigen::VectorXd x = all.log("eq3");
   const WeightedFit fit = all.fit({x, x.cwiseAbs2(), all.log("aspect")});
@@ -97,9 +97,7 @@ void report_box(PaperData& data, PaperSection& section) {
 
 void fill_theory(PaperData& data, PaperSection& section) {
   report_factors(data, section);
-  const LogFits all(data.settings("frequency; slowest; force; gravity; mass; box; loads "
-                                  "largest_size>0.04"),
-                    "prefactor_theory");
+  const LogFits all(data.settings(one_kind_of_grains("")), "prefactor_theory");
   if (!all.is_known(6)) return;
   const Eigen::VectorXd force = all.log("push_over_weight"),
                         mass = all.log("prefactor_theory") - 2.0 * force;
