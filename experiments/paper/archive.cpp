@@ -14,7 +14,6 @@
 namespace ballast {
 
 std::string archive_file(const std::string& name);  // of experiments/paper/archive
-std::string campaign_plan();
 std::string citation_text();
 std::string licence_text();
 

@@ -21,8 +21,6 @@ namespace ballast {
 
 namespace fs = std::filesystem;
 
-std::string campaign_plan();  // campaign.toml
-
 namespace {
 
 using Run = const RunSummary&;

@@ -27,6 +27,8 @@ struct CampaignSettings {
   std::string only = {};                    ///< names of the runs, as a shell's pattern; empty: all
 };
 
+/// The text of campaign.toml, built into the program.
+std::string campaign_plan();
 /// Stage by stage, the most important first; equal runs of several stages have one key. Throws
 /// SceneFileError naming plan, run, key and value.
 std::vector<PlannedRun> read_campaign(const CampaignSettings& settings);

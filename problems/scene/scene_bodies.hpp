@@ -11,9 +11,9 @@
 
 namespace ballast {
 
-/// Of every friction coefficient.
-inline constexpr NumberRange friction_range{"a number from 0 to 1e4 (which holds as a bond would)",
-                                            0.0, largest_friction, true, true};
+/// Of every friction coefficient; the largest holds as a bond would.
+inline constexpr NumberRange friction_range{"a number from 0 to 1e4", 0.0, largest_friction, true,
+                                            true};
 
 /// Reads the walls, then the bodies, then the crowds into the scene, whose period is known. Names
 /// are unique among all; unnamed ones are called wall_0, body_0, crowd_0, ... Throws

@@ -111,7 +111,7 @@ std::vector<std::string> wrong_values(const std::string& expected) {
       {"a number > 0 and <= 0.5", {"0", "0.51"}},
       {"a number from 0 to 1", {"-0.01", "1.01"}},
       {"a number from 0 to below 0.15", {"-0.01", "0.15"}},
-      {"a number from 0 to 1e4 (which holds as a bond would)", {"-0.1", "10001", "inf"}},
+      {"a number from 0 to 1e4", {"-0.1", "10001", "inf"}},
       {"an axis ratio > 0.1 and <= 1", {"0.1", "1.01"}},
       {"a whole number >= 0", {"-1", "2.5"}},
       {"a whole number from 0 to 5", {"-1", "6"}},
