@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 
 #include <sys/resource.h>
 
+#include "experiments/box/tiles.hpp"
 #include "experiments/compare/live_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/wall_cycles.hpp"
@@ -225,23 +225,6 @@ void carry(Carrier& carrier, List& measured) {
   });
 }
 
-/// Contacts and impulses in the order of their keys.
-void sort_memory(StepMemory& memory) {
-  std::vector<size_t> order(memory.contacts.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  const auto key = [&](size_t k) {
-    const ContactPoint& c = memory.contacts[k];
-    return std::tuple(c.body_a, c.body_b, c.feature);
-  };
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
-  StepMemory sorted;
-  for (const size_t k : order) {
-    sorted.contacts.push_back(memory.contacts[k]);
-    sorted.impulses.push_back(memory.impulses[k]);
-  }
-  memory = std::move(sorted);
-}
-
 }  // namespace
 
 std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
@@ -404,10 +387,13 @@ Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPo
       add(name, threads, std::string(name) + ", " + thread_words(threads), cost);
   for (const std::string& solver : options.solvers)
     add("iterations needed, " + solver, options.threads.front(), solver, iterations);
+  std::vector<Panel> panels{std::move(cost)};
+  const auto has_points = [](const Curve& curve) { return !curve.x.empty(); };
+  if (std::ranges::any_of(iterations.curves, has_points)) panels.push_back(std::move(iterations));
   return {.name = "scaling",
           .title = "Cost per grain over grains",
           .height = 620,
-          .panels = {cost, iterations}};
+          .panels = std::move(panels)};
 }
 
 DepositedBox deposited_box(const std::string& name, const std::vector<std::string>& overrides,
@@ -432,50 +418,11 @@ BenchStart driven_start(const DepositedBox& box) {
 }
 
 BenchStart tiled_start(const DepositedBox& box, int nx, int ny) {
-  Scene scene = box.scene;
-  scene.box.length *= nx;
-  scene.box.width *= ny;
-  const size_t grains = box.rain.grains.size();
-  // Where a body of one copy is found among the tiles; -1: a wall between two copies.
-  //
-  //     | 2 | 3 |   2 x 2 copies, each with its grains numbered in one piece. The walls between
-  //     | 0 | 1 |   copies fall away; the outer ones become those of one large box.
-  const auto body_of_tile = [&, count = static_cast<int>(grains)](int body, int ix, int iy) {
-    if (body < count) return (iy * nx + ix) * count + body;
-    const int wall = body - count;
-    const bool between = (wall == wall_x_min && ix > 0) || (wall == wall_x_max && ix < nx - 1) ||
-                         (wall == wall_y_min && iy > 0) || (wall == wall_y_max && iy < ny - 1);
-    return between ? -1 : nx * ny * count + wall;
-  };
-  const auto shift = [&](size_t ix, size_t iy) {
-    return Vec3(ix * box.scene.box.length, iy * box.scene.box.width, 0.0);
-  };
-  Rain rain;
-  BenchStart start;
-  for (int iy = 0; iy < ny; ++iy)
-    for (int ix = 0; ix < nx; ++ix) {
-      rain.grains.insert(rain.grains.end(), box.rain.grains.begin(), box.rain.grains.end());
-      for (size_t c = 0; c < box.packing.memory.contacts.size(); ++c) {
-        ContactPoint contact = box.packing.memory.contacts[c];
-        contact.body_a = body_of_tile(contact.body_a, ix, iy);
-        contact.body_b = body_of_tile(contact.body_b, ix, iy);
-        if (contact.body_a < 0 || contact.body_b < 0) continue;
-        contact.position += shift(ix, iy);
-        start.memory.contacts.push_back(contact);
-        start.memory.impulses.push_back(box.packing.memory.impulses[c]);
-      }
-    }
-  sort_memory(start.memory);
-  start.system = box_system(scene, rain, BoxStage::settle, box.packing.deposit.lid, &start.state);
-  // the grains of each copy are where they rest in the packing, not where they begin to rain
-  for (size_t b = 0; b < rain.grains.size(); ++b) {
-    const size_t tile = b / grains, grain = b % grains;
-    start.state.pose[b] = box.packing.state.pose[grain];
-    start.state.pose[b].position += shift(tile % nx, tile / nx);
-    start.state.velocity[b] = box.packing.state.velocity[grain];
-    start.state.spin[b] = box.packing.state.spin[grain];
-  }
-  return start;
+  const Scene scene = tiled_scene(box.scene, nx, ny);
+  const Rain rain = tiled_rain(scene, box.rain);
+  Packing packing = tiled_packing(scene, rain, box.packing);
+  return {box_system(scene, rain, BoxStage::settle, packing.deposit.lid), std::move(packing.state),
+          std::move(packing.memory)};
 }
 
 }  // namespace ballast

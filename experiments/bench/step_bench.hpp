@@ -39,10 +39,8 @@ struct BenchStart {
 /// The driven box at its first step.
 BenchStart driven_start(const DepositedBox& box);
 
-/// nx by ny copies of the packing side by side, without the walls between them, in one large box
-/// whose walls stand still (the settling stage: with the raised lid). Blocks do not overlap,
-/// because each lay between its walls; where those stood a seam of a grain's width is looser than
-/// the rest. Copies share the shapes of the first.
+/// nx by ny copies of the packing side by side (experiments/box/tiles.hpp), in one large box whose
+/// walls stand still (the settling stage: with the raised lid).
 BenchStart tiled_start(const DepositedBox& box, int nx, int ny);
 
 /// One kernel: `call` is timed, and does `items` items.

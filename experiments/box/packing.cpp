@@ -4,6 +4,7 @@
 #include <iostream>
 #include <limits>
 
+#include "experiments/box/tiles.hpp"
 #include "experiments/step/time_step.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
@@ -31,8 +32,13 @@ Scene stage_scene(const Scene& scene, BoxStage stage) {
 class Depositor {
  public:
   Depositor(const Scene& scene, const Rain& rain, const fs::path& part,
-            const DepositProgress& progress, Packing& packing)
-      : scene_(scene), rain_(rain), part_(part), progress_(progress), packing_(packing) {}
+            const DepositProgress& progress, Packing& packing, const Packing* tile)
+      : scene_(scene),
+        rain_(rain),
+        part_(part),
+        progress_(progress),
+        packing_(packing),
+        tile_(tile) {}
 
   bool run() {
     // Every stage goes on from the state that the one before has left. A deposit that was
@@ -40,7 +46,7 @@ class Depositor {
     //
     //     rain -- at rest --> press -- lid_time --> settle -- settle_time --> packing
     //
-    // Without a pressure of the lid there is no press.
+    // Without a pressure of the lid there is no press. Copies of a tile only settle.
     const DepositSpec& spec = scene_.deposit;
     if (!continue_part()) start();
     if (stage_ == BoxStage::rain) {
@@ -70,6 +76,13 @@ class Depositor {
   }
 
   void start() {
+    if (tile_) {
+      packing_ = tiled_packing(scene_, rain_, *tile_);
+      stage_ = BoxStage::settle;
+      packing_.key = packing_key(scene_);
+      packing_.phase = name_of(stage_);
+      return;
+    }
     packing_ = {packing_key(scene_), name_of(stage_), {}, {}, {}};
     packing_.deposit.lid = 2.0 * rain_.height;  // out of the way
     box_system(scene_, rain_, stage_, packing_.deposit.lid, &packing_.state);
@@ -138,6 +151,7 @@ class Depositor {
   const fs::path& part_;
   const DepositProgress& progress_;
   Packing& packing_;
+  const Packing* tile_;
   BoxStage stage_ = BoxStage::rain;
   double rms_velocity_ = 0.0;
 };
@@ -145,8 +159,8 @@ class Depositor {
 }  // namespace
 
 bool deposit(const Scene& scene, const Rain& rain, const fs::path& part,
-             const DepositProgress& progress, Packing& packing) {
-  return Depositor(scene, rain, part, progress, packing).run();
+             const DepositProgress& progress, Packing& packing, const Packing* tile) {
+  return Depositor(scene, rain, part, progress, packing, tile).run();
 }
 
 bool read_packing(const fs::path& file, const std::string& key, Packing& packing) {
@@ -196,6 +210,12 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   });
   if (!lock.is_held()) return false;
   if (find()) return true;  // made by whoever held the lock
+  Packing tile;
+  const bool is_tiled = scene.deposit.tiles() > 1;
+  if (is_tiled) {
+    const Scene one = tile_of(scene);
+    if (!take_packing(one, make_rain(one), order, tile, deposit_seconds)) return false;
+  }
   say("depositing " + std::to_string(rain.grains.size()) + " grains (kept in " + file.string() +
       ")");
   const Stopwatch watch;
@@ -207,7 +227,7 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
     progress.show(name_of(stage), time, end[static_cast<int>(stage)], record, velocity);
     return order.goes_on();
   };
-  const bool is_done = deposit(scene, rain, part, show, packing);
+  const bool is_done = deposit(scene, rain, part, show, packing, is_tiled ? &tile : nullptr);
   progress.finish();
   if (!is_done) return false;
   write_checkpoint(file, packing);

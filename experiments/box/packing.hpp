@@ -22,10 +22,11 @@ using DepositProgress =
     std::function<bool(BoxStage, double time, double rms_velocity, const StepRecord&)>;
 
 /// Deposits. `part`: checkpoint file of an unfinished deposit, continued when it is there, written
-/// every record.checkpoint_seconds and on interrupt. Returns false when interrupted. Throws Error
-/// when the packing doesn't come to rest.
+/// every record.checkpoint_seconds and on interrupt. `tile`: the packing of one tile, of a scene
+/// that has several; copies of it settle. Returns false when interrupted. Throws Error when the
+/// packing doesn't come to rest.
 bool deposit(const Scene& scene, const Rain& rain, const std::filesystem::path& part,
-             const DepositProgress& progress, Packing& packing);
+             const DepositProgress& progress, Packing& packing, const Packing* tile = nullptr);
 
 /// False when the file is not there. Throws Error when it is broken or has another key.
 bool read_packing(const std::filesystem::path& file, const std::string& key, Packing& packing);

@@ -71,6 +71,7 @@ void drive_by(WallSpec& spec, double mass, const HarmonicLoad& load) {
 const char* name_of(BoxStage stage) { return name_in({"rain", "press", "settle", "drive"}, stage); }
 
 Rain make_rain(const Scene& scene) {
+  if (scene.deposit.tiles() > 1) return tiled_rain(scene, make_rain(tile_of(scene)));
   const GrainsSpec& spec = *scene.grains;
   const auto shapes = spec.meshes.empty() ? make_grains(spec.count, spec.distribution,
                                                         spec.size_convention, spec.shape, spec.seed)
@@ -98,6 +99,36 @@ Rain make_rain(const Scene& scene) {
     body.pose = {centres[k], random_rotation(random)};
     rain.grains.push_back(std::move(body));
   }
+  return rain;
+}
+
+Scene tile_of(const Scene& scene) {
+  Scene tile = scene;
+  tile.box.length /= scene.deposit.tiles_x;
+  tile.box.width /= scene.deposit.tiles_y;
+  tile.grains->count /= scene.deposit.tiles();
+  tile.deposit.tiles_x = tile.deposit.tiles_y = 1;
+  return tile;
+}
+
+std::vector<Vec3> tile_corners(const Scene& scene) {
+  const DepositSpec& deposit = scene.deposit;
+  const double length = scene.box.length / deposit.tiles_x,
+               width = scene.box.width / deposit.tiles_y;
+  std::vector<Vec3> corners;
+  for (int iy = 0; iy < deposit.tiles_y; ++iy)
+    for (int ix = 0; ix < deposit.tiles_x; ++ix) corners.emplace_back(ix * length, iy * width, 0.0);
+  return corners;
+}
+
+Rain tiled_rain(const Scene& scene, const Rain& tile) {
+  Rain rain{{}, tile.height};
+  for (const Vec3& corner : tile_corners(scene))
+    for (BodySpec grain : tile.grains) {
+      grain.name = "grain " + std::to_string(rain.grains.size());
+      grain.pose.position += corner;
+      rain.grains.push_back(std::move(grain));
+    }
   return rain;
 }
 
@@ -181,6 +212,7 @@ std::string packing_key(const Scene& scene) {
   const CorrectionSpec& c = scene.correction;
   text << ';' << c.enabled << ' ' << c.slop << ' ' << c.fraction << ' ' << c.sweeps << ' '
        << scene.detection.max_points;
+  if (d.tiles() > 1) text << ';' << d.tiles_x << ' ' << d.tiles_y;
   return content_key(text.str());
 }
 

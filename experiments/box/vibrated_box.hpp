@@ -25,12 +25,19 @@ enum BoxWall {
 };
 
 /// The grains of a scene, generated or read from its meshes, at rest in a loose rain without
-/// overlap above the floor.
+/// overlap above the floor; of a tiled box copies of a tile's.
 struct Rain {
   std::vector<BodySpec> grains;
   double height = 0.0;  ///< of the rain [m]
 };
 Rain make_rain(const Scene& scene);
+
+/// One of the scene's tiles (deposit.tiles_x, tiles_y): a box of its own.
+Scene tile_of(const Scene& scene);
+/// Where each tile's corner is, along x first [m].
+std::vector<Vec3> tile_corners(const Scene& scene);
+/// Copies of the grains of a tile in the order of the corners; they share the shapes.
+Rain tiled_rain(const Scene& scene, const Rain& tile);
 
 /// The system of one stage. `lid`: height of the lid's plane at the start of the stage [m].
 /// `start`, where it is given: grains as they are in the rain, and the walls, all at rest.

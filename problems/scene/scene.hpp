@@ -126,6 +126,10 @@ struct DepositSpec {
   std::string solver = "nncg";
   double tolerance = 1e-2;  ///< natural map rms, in g h
   int max_iterations = 200;
+  /// Above 1: one of so many tiles of the box, with its part of the grains, is deposited, and the
+  /// box is copies of it.
+  int tiles_x = 1, tiles_y = 1;
+  int tiles() const { return tiles_x * tiles_y; }
 };
 
 /// The harmonic drive of wall x_max.

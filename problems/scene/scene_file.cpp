@@ -91,7 +91,7 @@ GrainsSpec read_grains(TomlTable table, const fs::path& folder) {
   return grains;
 }
 
-void read_box(TomlTable table, BoxSpec& s, const GrainsSpec& grains) {
+void read_box(TomlTable table, BoxSpec& s, const GrainsSpec& grains, const DepositSpec& deposit) {
   table.read("length", &s.length, in(positive, "m"), required);
   table.read("width", &s.width, in(positive, "m"), required);
   table.read("friction_horizontal", &s.friction_horizontal, in(friction_range));
@@ -102,13 +102,15 @@ void read_box(TomlTable table, BoxSpec& s, const GrainsSpec& grains) {
   for (const SizeClass& c : grains.distribution)
     widest =
         std::max(widest, grains.size_convention == SizeConvention::radius ? 2.0 * c.size : c.size);
-  const std::string expected = "narrower than the largest grain, expected at least " +
-                               toml_value_text(toml::value<double>(widest)) + " [m]";
-  if (s.length < widest) table.fail("length", expected);
-  if (s.width < widest) table.fail("width", expected);
+  const std::tuple<const char*, double, double> sides[] = {
+      {"length", s.length, widest * deposit.tiles_x}, {"width", s.width, widest * deposit.tiles_y}};
+  for (const auto& [key, side, least] : sides)
+    if (side < least)
+      table.fail(key, "narrower than the largest grain, expected at least " +
+                          toml_value_text(toml::value<double>(least)) + " [m]");
 }
 
-void read_deposit(TomlTable table, DepositSpec& s) {
+void read_deposit(TomlTable table, DepositSpec& s, const GrainsSpec& grains) {
   table.read("step", &s.step, in(positive, "s"));
   table.read("friction", &s.friction, in(friction_range));
   table.read("fill_fraction", &s.fill_fraction, in(fill_range, "of the bounding spheres"));
@@ -122,7 +124,12 @@ void read_deposit(TomlTable table, DepositSpec& s) {
   table.read("solver", &s.solver);
   table.read("tolerance", &s.tolerance, in(not_negative, "g h"));
   table.read("max_iterations", &s.max_iterations, whole(1));
+  table.read("tiles_x", &s.tiles_x, whole(1, 1000), only_where_given);
+  table.read("tiles_y", &s.tiles_y, whole(1, 1000), only_where_given);
   table.finish();
+  if (grains.count % s.tiles() != 0)
+    table.fail(s.tiles_x > 1 ? "tiles_x" : "tiles_y",
+               "grains.count is no multiple of " + std::to_string(s.tiles()) + " tiles");
   // as for the scene: steps are counted
   const std::tuple<const char*, double, double> stages[] = {
       {"max_time", s.max_time, s.step},
@@ -228,8 +235,8 @@ void read_box_scene(TomlTable& root, Scene& scene, const fs::path& file) {
   if (scene.period.repeats())
     throw SceneFileError(file.string() + ": scene.period has no meaning with [grains], in a box");
   scene.grains = read_grains(root.section("grains"), file.parent_path());
-  read_box(root.section("box"), scene.box, *scene.grains);
-  read_deposit(root.section("deposit"), scene.deposit);
+  read_deposit(root.section("deposit"), scene.deposit, *scene.grains);
+  read_box(root.section("box"), scene.box, *scene.grains, scene.deposit);
   read_drive(root.section("drive"), scene.drive);
   read_control_volume(root.section("control_volume"), scene.control_volume, scene.box);
 }

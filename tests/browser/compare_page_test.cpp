@@ -45,6 +45,11 @@ struct HandMadeComparison {
   const TemporaryFolder place;
   std::vector<CompareRow> rows;
 };
+/// One for all tests of a process.
+const HandMadeComparison& hand_made() {
+  static const HandMadeComparison made;
+  return made;
+}
 
 /// No library, no answers: the page says so, which html_test reads.
 bool is_missing() { return Browser::is_missing() || !page::can_answer(); }
@@ -74,7 +79,7 @@ Json place_of(Browser& browser, const std::string& canvas, int curve, int point)
 
 TEST_CASE("tables in the browser are what the program computed, sort, and follow the choice") {
   if (is_missing()) return;
-  const HandMadeComparison made;
+  const HandMadeComparison& made = hand_made();
   Browser browser(1400, 900);
   browser.open(made.page(), "", is_drawn);
   // the program wrote the same table into the page, for readers without scripts
@@ -110,7 +115,7 @@ TEST_CASE("tables in the browser are what the program computed, sort, and follow
 
 TEST_CASE("profiles are computed for the chosen backends and cases") {
   if (is_missing()) return;
-  const HandMadeComparison made;
+  const HandMadeComparison& made = hand_made();
   Browser browser(1400, 900);
   browser.open(made.page(), "", is_drawn);
   const std::string curve =
@@ -133,7 +138,7 @@ TEST_CASE("profiles are computed for the chosen backends and cases") {
 
 TEST_CASE("a point tells its values, and a click opens its solve with the command") {
   if (is_missing()) return;
-  const HandMadeComparison made;
+  const HandMadeComparison& made = hand_made();
   Browser browser(1400, 900);
   browser.open(made.page(), "", is_drawn);
   const Json spot = place_of(browser, "#cost canvas", 1, 2);  // b on z3
@@ -161,7 +166,7 @@ TEST_CASE("a point tells its values, and a click opens its solve with the comman
 
 TEST_CASE("a solve says where in the packing it is wrong: by a command, or not at all") {
   if (is_missing()) return;
-  const HandMadeComparison made;
+  const HandMadeComparison& made = hand_made();
   Browser browser(1400, 900);
   const std::string commands =
       "[...document.querySelectorAll('dialog pre')].slice(1).map((e) => e.textContent).join('|')";
@@ -175,7 +180,7 @@ TEST_CASE("a solve says where in the packing it is wrong: by a command, or not a
 
 TEST_CASE("legends switch a curve off everywhere, and the rows are saved as they are in the CSV") {
   if (is_missing()) return;
-  const HandMadeComparison made;
+  const HandMadeComparison& made = hand_made();
   Browser browser(1400, 900);
   browser.open(made.page(), "", is_drawn);
   browser.js(pressed("#profiles [data-title=a]"));
@@ -197,7 +202,7 @@ TEST_CASE("legends switch a curve off everywhere, and the rows are saved as they
 
 TEST_CASE("light, dark, wide and narrow: charts have ink, and no page is wider than its window") {
   if (is_missing()) return;
-  const HandMadeComparison made;
+  const HandMadeComparison& made = hand_made();
   Browser browser(375, 900);
   std::vector<Json> grounds;
   for (const bool is_dark : {false, true})

@@ -14,7 +14,7 @@ namespace ballast {
 
 inline constexpr const char* is_ready = "window.ballastReplay || window.ballastReplayError";
 
-/// A small box that was driven for 20 ms, with its page and its record.
+/// A small box that was driven for 20 ms, with its page and its record: driven_box().
 struct DrivenBox {
   DrivenBox() {
     RunOptions options;
@@ -35,6 +35,12 @@ struct DrivenBox {
   std::vector<MotionState> frames;
   std::vector<StepRecord> steps;
 };
+
+/// One for all tests of a process.
+inline const DrivenBox& driven_box() {
+  static const DrivenBox box;
+  return box;
+}
 
 /// A number that is another for every other picture.
 inline Browser::Json picture(Browser& browser) {

@@ -97,7 +97,7 @@ TEST_CASE("a logarithmic axis ends beside its points, and only round values have
 
 TEST_CASE("the figures of a run tell the values under the pointer") {
   if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
-  const DrivenBox box;
+  const DrivenBox& box = driven_box();
   Browser browser(1400, 900);
   browser.open(box.page(), "play=0", is_ready);
   browser.wait_for(

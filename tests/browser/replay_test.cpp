@@ -41,7 +41,7 @@ Json pixels(Browser& browser, const std::string& test) {
 
 TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to that moment") {
   if (Browser::is_missing()) return;
-  const DrivenBox box;
+  const DrivenBox& box = driven_box();
   Browser browser(900, 700);
   browser.open(box.page(), "play=0", is_ready);
   REQUIRE(browser.js("window.ballastReplayError || ''") == "");
@@ -93,7 +93,7 @@ TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to t
 
 TEST_CASE("the driven wall stands where steps.csv says, within a pixel's worth") {
   if (Browser::is_missing()) return;
-  const DrivenBox box;
+  const DrivenBox& box = driven_box();
   Browser browser(900, 700);
   browser.open(box.page(), "play=0&view=y&grains=hidden", is_ready);
   std::set<int> columns;
@@ -119,7 +119,7 @@ TEST_CASE("the driven wall stands where steps.csv says, within a pixel's worth")
 
 TEST_CASE("colour, cut, chains and a picked grain change what is seen and said") {
   if (Browser::is_missing()) return;
-  const DrivenBox box;
+  const DrivenBox& box = driven_box();
   Browser browser(900, 700);
   browser.open(box.page(), "play=0&t=0.02", is_ready);
   const Json whole = pixels(browser, "Math.max(r, g, b) - Math.min(r, g, b) > 40");
@@ -226,7 +226,7 @@ TEST_CASE("what is most wrong stands out from a light and a dark ground") {
 
 TEST_CASE("narrow, dark, and without 3D") {
   if (Browser::is_missing()) return;
-  const DrivenBox box;
+  const DrivenBox& box = driven_box();
   {
     Browser browser(375, 800, true);
     browser.open(box.page(), "play=0", is_ready);
@@ -258,7 +258,7 @@ TEST_CASE("narrow, dark, and without 3D") {
 
 TEST_CASE("what is chosen stands in the address, and shows the same again") {
   if (Browser::is_missing()) return;
-  const DrivenBox box;
+  const DrivenBox& box = driven_box();
   Browser browser(900, 700);
   browser.open(box.page(), "play=0", is_ready);
   const Browser::Json first = picture(browser);

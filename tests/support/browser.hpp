@@ -1,7 +1,8 @@
 #pragma once
 // A browser without a window for tests of pages: Debian's chromium, told what to do in the DevTools
 // protocol over two pipes (its --remote-debugging-pipe: JSON messages that end in a zero byte). No
-// driver, no port. It has no network.
+// driver, no port. It has no network. Tests that run in one process share one program: each has a
+// tab of its own.
 
 #include <fcntl.h>
 #include <poll.h>
@@ -9,6 +10,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -22,25 +24,123 @@
 
 namespace ballast {
 
-class Browser {
+/// The program, and messages to and from it.
+class BrowserProgram {
  public:
   using Json = nlohmann::json;
-  static constexpr const char* program = "/usr/bin/chromium";
+  static constexpr const char* path = "/usr/bin/chromium";
+
+  explicit BrowserProgram(const std::vector<std::string>& switches) {
+    std::array<int, 2> to{}, from{};
+    if (pipe2(to.data(), O_CLOEXEC) != 0 || pipe2(from.data(), O_CLOEXEC) != 0)
+      throw std::runtime_error("no pipe");
+    std::vector<std::string> words{
+        path,
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-dev-shm-usage",  // it is small in a container
+        "--remote-debugging-pipe",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+        "--ignore-gpu-blocklist",
+        "--disable-gpu-rasterization",      // 2D on the processor: no
+        "--disable-accelerated-2d-canvas",  // detour by a GPU in software
+        "--hide-scrollbars",
+        "--disable-background-networking",
+        "--user-data-dir=" + profile_.path().string()};
+    words.insert(words.end(), switches.begin(), switches.end());
+    child_.emplace([&] {
+      // the browser reads from 3 and writes to 4, wherever the pipes are now
+      const int in = fcntl(to[0], F_DUPFD, 10), out = fcntl(from[1], F_DUPFD, 10);
+      dup2(in, 3);
+      dup2(out, 4);
+      const int nowhere = ::open("/dev/null", O_RDWR);
+      for (const int stream : {0, 1, 2}) dup2(nowhere, stream);
+      std::vector<char*> arguments;
+      for (std::string& word : words) arguments.push_back(word.data());
+      arguments.push_back(nullptr);
+      execv(path, arguments.data());
+    });
+    close(to[0]);
+    close(from[1]);
+    write_ = to[1];
+    read_ = from[0];
+  }
+  ~BrowserProgram() {
+    for (const int end : {write_, read_}) close(end);
+  }
+  BrowserProgram(const BrowserProgram&) = delete;
+  BrowserProgram& operator=(const BrowserProgram&) = delete;
+
+  /// The answer to a command; `note` gets the events that come before it. `session`: of a tab, or
+  /// empty.
+  template <typename Note>
+  Json call(const std::string& session, const std::string& method, const Json& parameters,
+            const Note& note) {
+    Json message{{"id", ++count_}, {"method", method}, {"params", parameters}};
+    if (!session.empty()) message["sessionId"] = session;
+    std::string text = message.dump();
+    text += '\0';
+    for (size_t sent = 0; sent < text.size();) {
+      const ssize_t now = write(write_, text.data() + sent, text.size() - sent);
+      if (now <= 0) throw std::runtime_error(method + ": the browser is gone");
+      sent += static_cast<size_t>(now);
+    }
+    for (;;) {
+      const Json answer = Json::parse(next_message(method));
+      if (answer.value("id", 0) == count_) {
+        if (answer.contains("error"))
+          throw std::runtime_error(method + ": " + answer.at("error").dump());
+        return answer.at("result");
+      }
+      note(answer);
+    }
+  }
+
+ private:
+  std::string next_message(const std::string& method) {
+    for (;;) {
+      const size_t end = received_.find('\0');
+      if (end != std::string::npos) {
+        const std::string message = received_.substr(0, end);
+        received_.erase(0, end + 1);
+        return message;
+      }
+      pollfd ready{read_, POLLIN, 0};
+      std::array<char, 65536> bytes{};
+      if (poll(&ready, 1, 60000) <= 0) throw std::runtime_error(method + ": no answer");
+      const ssize_t got = read(read_, bytes.data(), bytes.size());
+      if (got <= 0) throw std::runtime_error(method + ": the browser has ended");
+      received_.append(bytes.data(), static_cast<size_t>(got));
+    }
+  }
+
+  const TemporaryFolder profile_;
+  std::optional<ChildProcess> child_;
+  int write_ = -1, read_ = -1, count_ = 0;
+  std::string received_;
+};
+
+/// A tab.
+class Browser {
+ public:
+  using Json = BrowserProgram::Json;
 
   /// Without it the tests are skipped: they say so by these words, which ctest knows.
   static bool is_missing() {
-    if (std::filesystem::exists(program)) return false;
-    WARN("skipped: " << program << " is not installed (apt-packages-browser.txt)");
+    if (std::filesystem::exists(BrowserProgram::path)) return false;
+    WARN("skipped: " << BrowserProgram::path << " is not installed (apt-packages-browser.txt)");
     return true;
   }
 
+  /// With `switches` of the program it has a program of its own, which need not be able to draw.
   explicit Browser(int width, int height, bool is_dark = false,
-                   std::vector<std::string> switches = {})
-      : can_draw_(switches.empty()) {
-    start(std::move(switches));
-    const Json page = call("Target.createTarget", {{"url", "about:blank"}});
-    session_ = call("Target.attachToTarget", {{"targetId", page.at("targetId")}, {"flatten", true}})
-                   .at("sessionId");
+                   const std::vector<std::string>& switches = {})
+      : program_(switches.empty() ? shared() : std::make_shared<BrowserProgram>(switches)),
+        can_draw_(switches.empty()) {
+    tab_ = call("Target.createTarget", {{"url", "about:blank"}}).at("targetId");
+    session_ =
+        call("Target.attachToTarget", {{"targetId", tab_}, {"flatten", true}}).at("sessionId");
     for (const char* domain : {"Page", "Runtime", "Log", "Network"})
       call(std::string(domain) + ".enable");
     call("Network.emulateNetworkConditions",
@@ -58,7 +158,11 @@ class Browser {
   /// Whatever a test does, a page that can draw has nothing to complain of.
   ~Browser() {
     if (can_draw_) CHECK(complaints_ == std::vector<std::string>{});
-    for (const int end : {write_, read_}) close(end);
+    session_.clear();
+    try {
+      call("Target.closeTarget", {{"targetId", tab_}});
+    } catch (const std::exception&) {  // the program has ended: the test has met that before
+    }
   }
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
@@ -104,82 +208,17 @@ class Browser {
   }
 
  private:
-  void start(std::vector<std::string> switches) {
-    std::array<int, 2> to{}, from{};
-    if (pipe2(to.data(), O_CLOEXEC) != 0 || pipe2(from.data(), O_CLOEXEC) != 0)
-      throw std::runtime_error("no pipe");
-    std::vector<std::string> words{
-        program,
-        "--headless=new",
-        "--no-sandbox",
-        "--disable-dev-shm-usage",  // it is small in a container
-        "--remote-debugging-pipe",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-        "--ignore-gpu-blocklist",
-        "--disable-gpu-rasterization",      // 2D on the processor: no
-        "--disable-accelerated-2d-canvas",  // detour by a GPU in software
-        "--hide-scrollbars",
-        "--disable-background-networking",
-        "--user-data-dir=" + profile_.path().string()};
-    words.insert(words.end(), switches.begin(), switches.end());
-    child_.emplace([&] {
-      // the browser reads from 3 and writes to 4, wherever the pipes are now
-      const int in = fcntl(to[0], F_DUPFD, 10), out = fcntl(from[1], F_DUPFD, 10);
-      dup2(in, 3);
-      dup2(out, 4);
-      const int nowhere = ::open("/dev/null", O_RDWR);
-      for (const int stream : {0, 1, 2}) dup2(nowhere, stream);
-      std::vector<char*> arguments;
-      for (std::string& word : words) arguments.push_back(word.data());
-      arguments.push_back(nullptr);
-      execv(program, arguments.data());
-    });
-    close(to[0]);
-    close(from[1]);
-    write_ = to[1];
-    read_ = from[0];
+  static std::shared_ptr<BrowserProgram> shared() {
+    static const auto program = std::make_shared<BrowserProgram>(std::vector<std::string>{});
+    return program;
   }
 
   Json call(const std::string& method, const Json& parameters = Json::object()) {
-    Json message{{"id", ++count_}, {"method", method}, {"params", parameters}};
-    if (!session_.empty()) message["sessionId"] = session_;
-    std::string text = message.dump();
-    text += '\0';
-    for (size_t sent = 0; sent < text.size();) {
-      const ssize_t now = write(write_, text.data() + sent, text.size() - sent);
-      if (now <= 0) throw std::runtime_error(method + ": the browser is gone");
-      sent += static_cast<size_t>(now);
-    }
-    for (;;) {
-      const Json answer = Json::parse(next_message(method));
-      if (answer.value("id", 0) == count_) {
-        if (answer.contains("error"))
-          throw std::runtime_error(method + ": " + answer.at("error").dump());
-        return answer.at("result");
-      }
-      note(answer);
-    }
-  }
-
-  std::string next_message(const std::string& method) {
-    for (;;) {
-      const size_t end = received_.find('\0');
-      if (end != std::string::npos) {
-        const std::string message = received_.substr(0, end);
-        received_.erase(0, end + 1);
-        return message;
-      }
-      pollfd ready{read_, POLLIN, 0};
-      std::array<char, 65536> bytes{};
-      if (poll(&ready, 1, 60000) <= 0) throw std::runtime_error(method + ": no answer");
-      const ssize_t got = read(read_, bytes.data(), bytes.size());
-      if (got <= 0) throw std::runtime_error(method + ": the browser has ended");
-      received_.append(bytes.data(), static_cast<size_t>(got));
-    }
+    return program_->call(session_, method, parameters, [&](const Json& event) { note(event); });
   }
 
   void note(const Json& event) {
+    if (event.value("sessionId", "") != session_) return;  // of another tab, or of none
     const std::string method = event.value("method", "");
     const bool is_bad =
         method == "Runtime.exceptionThrown" || method == "Network.loadingFailed" ||
@@ -190,11 +229,9 @@ class Browser {
 
   /// What pages wrote to the console as errors or warnings, exceptions, failed requests.
   std::vector<std::string> complaints_;
+  const std::shared_ptr<BrowserProgram> program_;
   const bool can_draw_;
-  const TemporaryFolder profile_;
-  std::optional<ChildProcess> child_;
-  int write_ = -1, read_ = -1, count_ = 0;
-  std::string session_, received_;
+  std::string tab_, session_;
 };
 
 }  // namespace ballast

@@ -96,7 +96,7 @@ TEST_CASE("Scaling measures each packing in its own process") {
   const auto missed = measure_scaling(tiny_box(), options, [](const ScalingPoint&) {});
   CHECK(std::isnan(missed[0].value("iterations needed, pgs")));
   CHECK(missed[0].value("time, tolerance not reached, pgs") > 0.0);
-  CHECK(scaling_figure(options, missed).panels[1].curves[0].x.empty());
+  CHECK(scaling_figure(options, missed).panels.size() == 1);  // where nothing is, nothing is drawn
 }
 
 TEST_CASE("Copies side by side are the packing again and again") {

@@ -104,6 +104,18 @@ TEST_CASE("a page of results is measured by its own commands, once, and made aga
   CHECK(read_whole_file(folder.path() / "copy" / "results.md") == told);
 }
 
+TEST_CASE("docs/results.md is the page of docs/measured/numbers.csv") {
+  const TemporaryFolder folder;
+  const std::string docs = BALLAST_SOURCE_FOLDER "/docs",
+                    output = (folder.path() / "page").string();
+  // `ballast bench all --rows docs/measured/numbers.csv --output docs`
+  const ProgramResult made = ballast_program(
+      {"bench", "all", "--rows", docs + "/measured/numbers.csv", "--output", output});
+  INFO(made.errors);
+  REQUIRE(made.status == 0);
+  CHECK(read_whole_file(output + "/results.md") == read_whole_file(docs + "/results.md"));
+}
+
 TEST_CASE("a page of results that cannot be measured says why") {
   const TemporaryFolder folder;
   const auto complaint = [&](const std::string& page, std::vector<std::string> more = {}) {

@@ -117,6 +117,7 @@ std::vector<std::string> wrong_values(const std::string& expected) {
       {"a whole number from 0 to 5", {"-1", "6"}},
       {"a whole number from 4 to 200", {"3", "201"}},
       {"a whole number from 1 to 100000", {"0", "100001", "2.5"}},
+      {"a whole number from 1 to 1000", {"0", "1001", "1.5"}},
       {"a whole number from 1 to 1000000", {"0", "1000001", "2.5"}},
       {"a whole number from 1 to 1000000000", {"0", "1000000001", "2.5"}}};
   std::vector<std::string> values{"1979-05-27"};
