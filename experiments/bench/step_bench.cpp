@@ -419,10 +419,11 @@ BenchStart driven_start(const DepositedBox& box) {
 
 BenchStart tiled_start(const DepositedBox& box, int nx, int ny) {
   const Scene scene = tiled_scene(box.scene, nx, ny);
-  const Rain rain = tiled_rain(scene, box.rain);
-  Packing packing = tiled_packing(scene, rain, box.packing);
-  return {box_system(scene, rain, BoxStage::settle, packing.deposit.lid), std::move(packing.state),
-          std::move(packing.memory)};
+  BenchStart start;
+  start.system = box_system(scene, tiled_rain(scene, box.rain), BoxStage::settle,
+                            box.packing.deposit.lid, &start.state);
+  place_copies(scene, box.packing, start.state, start.memory);
+  return start;
 }
 
 }  // namespace ballast

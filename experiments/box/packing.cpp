@@ -46,7 +46,8 @@ class Depositor {
     //
     //     rain -- at rest --> press -- lid_time --> settle -- settle_time --> packing
     //
-    // Without a pressure of the lid there is no press. Copies of a tile only settle.
+    // Without a pressure of the lid there is no press. Of a tiled box the rain is what falls into
+    // the seams between the copies.
     const DepositSpec& spec = scene_.deposit;
     if (!continue_part()) start();
     if (stage_ == BoxStage::rain) {
@@ -76,16 +77,10 @@ class Depositor {
   }
 
   void start() {
-    if (tile_) {
-      packing_ = tiled_packing(scene_, rain_, *tile_);
-      stage_ = BoxStage::settle;
-      packing_.key = packing_key(scene_);
-      packing_.phase = name_of(stage_);
-      return;
-    }
     packing_ = {packing_key(scene_), name_of(stage_), {}, {}, {}};
     packing_.deposit.lid = 2.0 * rain_.height;  // out of the way
     box_system(scene_, rain_, stage_, packing_.deposit.lid, &packing_.state);
+    if (tile_) place_copies(scene_, *tile_, packing_.state, packing_.memory);
   }
 
   size_t lid() const { return rain_.grains.size() + wall_lid; }
@@ -115,9 +110,18 @@ class Depositor {
   }
 
   bool rests() const {
-    // nothing rests before the highest grain has fallen
-    const double fall = std::sqrt(2.0 * rain_.height / deposit_gravity(scene_).norm());
+    // nothing rests before what is highest has fallen
+    const double fall = std::sqrt(2.0 * fall_height() / deposit_gravity(scene_).norm());
     return packing_.state.time > fall && rms_velocity_ < scene_.deposit.rest_velocity;
+  }
+
+  /// From the top of the rain, or into a seam, which is as wide as a grain.
+  double fall_height() const {
+    if (!tile_) return rain_.height;
+    double widest = 0.0;
+    for (const BodySpec& grain : rain_.grains)
+      widest = std::max(widest, 2.0 * grain.shape->circumradius());
+    return widest;
   }
 
   /// Steps the current stage for `duration`, the rain until it rests. False: interrupted.

@@ -23,8 +23,8 @@ using DepositProgress =
 
 /// Deposits. `part`: checkpoint file of an unfinished deposit, continued when it is there, written
 /// every record.checkpoint_seconds and on interrupt. `tile`: the packing of one tile, of a scene
-/// that has several; copies of it settle. Returns false when interrupted. Throws Error when the
-/// packing doesn't come to rest.
+/// that has several; copies of it stand in the place of the rain. Returns false when interrupted.
+/// Throws Error when the packing doesn't come to rest.
 bool deposit(const Scene& scene, const Rain& rain, const std::filesystem::path& part,
              const DepositProgress& progress, Packing& packing, const Packing* tile = nullptr);
 

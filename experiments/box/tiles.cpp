@@ -35,12 +35,12 @@ Scene tiled_scene(const Scene& tile, int nx, int ny) {
   return scene;
 }
 
-Checkpoint tiled_packing(const Scene& scene, const Rain& rain, const Checkpoint& tile) {
+void place_copies(const Scene& scene, const Checkpoint& tile, MotionState& state,
+                  StepMemory& memory) {
   const int nx = scene.deposit.tiles_x, ny = scene.deposit.tiles_y,
-            all = static_cast<int>(rain.grains.size()), grains = all / (nx * ny);
-  Checkpoint packing;
-  packing.deposit = tile.deposit;
-  box_system(scene, rain, BoxStage::settle, tile.deposit.lid, &packing.state);
+            grains = static_cast<int>(tile.state.pose.size()) - box_wall_count,
+            all = nx * ny * grains;
+  memory = {};
   //     | 2 | 3 |   2 x 2 copies, each with its grains numbered in one piece. The walls between
   //     | 0 | 1 |   copies fall away; the outer ones become those of one large box.
   int copy = 0;
@@ -55,10 +55,10 @@ Checkpoint tiled_packing(const Scene& scene, const Rain& rain, const Checkpoint&
       return is_between ? -1 : all + wall;
     };
     for (int b = 0; b < grains; ++b) {
-      packing.state.pose[first + b] = tile.state.pose[b];
-      packing.state.pose[first + b].position += corner;
-      packing.state.velocity[first + b] = tile.state.velocity[b];
-      packing.state.spin[first + b] = tile.state.spin[b];
+      state.pose[first + b] = tile.state.pose[b];
+      state.pose[first + b].position += corner;
+      state.velocity[first + b] = tile.state.velocity[b];
+      state.spin[first + b] = tile.state.spin[b];
     }
     for (size_t c = 0; c < tile.memory.contacts.size(); ++c) {
       ContactPoint contact = tile.memory.contacts[c];
@@ -66,13 +66,12 @@ Checkpoint tiled_packing(const Scene& scene, const Rain& rain, const Checkpoint&
       contact.body_b = body_here(contact.body_b);
       if (contact.body_a < 0 || contact.body_b < 0) continue;
       contact.position += corner;
-      packing.memory.contacts.push_back(contact);
-      packing.memory.impulses.push_back(tile.memory.impulses[c]);
+      memory.contacts.push_back(contact);
+      memory.impulses.push_back(tile.memory.impulses[c]);
     }
     ++copy;
   }
-  sort_memory(packing.memory);
-  return packing;
+  sort_memory(memory);
 }
 
 }  // namespace ballast
