@@ -38,7 +38,8 @@ class Depositor {
         part_(part),
         progress_(progress),
         packing_(packing),
-        tile_(tile) {}
+        tile_(tile),
+        fall_time_(std::sqrt(2.0 * fall_height() / deposit_gravity(scene).norm())) {}
 
   bool run() {
     // Every stage goes on from the state that the one before has left. A deposit that was
@@ -111,8 +112,7 @@ class Depositor {
 
   bool rests() const {
     // nothing rests before what is highest has fallen
-    const double fall = std::sqrt(2.0 * fall_height() / deposit_gravity(scene_).norm());
-    return packing_.state.time > fall && rms_velocity_ < scene_.deposit.rest_velocity;
+    return packing_.state.time > fall_time_ && rms_velocity_ < scene_.deposit.rest_velocity;
   }
 
   /// From the top of the rain, or into a seam, which is as wide as a grain.
@@ -156,6 +156,7 @@ class Depositor {
   const DepositProgress& progress_;
   Packing& packing_;
   const Packing* tile_;
+  const double fall_time_;  // after those above, of which it is made [s]
   BoxStage stage_ = BoxStage::rain;
   double rms_velocity_ = 0.0;
 };
