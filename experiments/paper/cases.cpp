@@ -109,8 +109,9 @@ struct Case {
   Groups groups;
 };
 
-/// A row for each case and value.
-page::Table stage_table(const std::vector<Case>& cases, const std::string& unit) {
+/// A row for each case and value; what the article cites of them.
+page::Table stage_table(const std::vector<Case>& cases, const std::string& unit,
+                        PaperSection& section) {
   page::Text heads;
   for (const StageColumn& column : stage_columns)
     add_to_list(heads, page::marked(column.head), " || ");
@@ -120,6 +121,10 @@ page::Table stage_table(const std::vector<Case>& cases, const std::string& unit)
       table.rows.push_back({row.name, group.label + unit, std::to_string(group.samples.size())});
       for (const StageColumn& column : stage_columns)
         table.rows.back().push_back(words_of(group.mean(column.value), column.factor));
+      page::Values cited{{"case", row.name}, {"at", group.label}};
+      for (const RunMeasure measure : {"prefactor", "aspect", "height", "grain_mass"})
+        cited.emplace(measure, page::number(group.mean(measure).mean));
+      section.keep(section.id + ".cases", cited);
     }
   return table;
 }
@@ -139,25 +144,52 @@ std::vector<Groups> ranges_of(const Groups& groups, bool is_frequency) {
   return ranges;
 }
 
+/// Of Delta x_max and v_max over a range.
+struct Exponents {
+  std::map<double, double> rise, speed;  ///< by seed
+};
+
+SampleMean mean_of(const std::map<double, double>& by_seed) {
+  std::vector<double> values;
+  for (const auto& [seed, value] : by_seed) values.push_back(value);
+  return sample_mean(values);
+}
+
+/// Of the samples that both have: by how much the exponents differ.
+page::Text change_words(const std::map<double, double>& from, const std::map<double, double>& to) {
+  std::map<double, double> change;
+  for (const auto& [seed, value] : from)
+    if (const auto same = to.find(seed); same != to.end()) change[seed] = same->second - value;
+  const SampleMean mean = mean_of(change);
+  return mean.samples < 2 ? "–" : words_with_interval(mean) + ", p " + words_of_p(mean.p());
+}
+
 /// Exponents of Delta x_max and v_max, sample by sample; each case's first ones are findings.
 void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperSection& section) {
   page::Table table = page::words_table("exponents");
   const bool is_frequency = what.exponent_along == "frequency";
+  std::map<std::string, Exponents> reference;  // of the first case, by range
   for (const Case& row : cases) {
     bool is_first = true;
     for (const Groups& groups : ranges_of(row.groups, is_frequency)) {
-      const size_t fewest = is_frequency ? groups.size() : 3;
-      const SampleMean rise = exponent_by_sample(groups, what.exponent_along, "rise", fewest),
-                       speed = exponent_by_sample(groups, what.exponent_along, "speed_in", fewest);
-      const page::Text over = groups.front().label + (groups.size() == 2 ? " and " : " to ") +
-                              groups.back().label + unit_behind(what.along);
-      table.rows.push_back({row.name, over, std::to_string(rise.samples), words_with_interval(rise),
-                            words_with_interval(speed)});
-      if (std::exchange(is_first, false))
-        section.report(section.id + ".claim", {{"case", row.name},
-                                               {"range", over},
-                                               {"rise", words_with_interval(rise)},
-                                               {"speed", words_with_interval(speed)}});
+      const auto exponents = [&](RunMeasure measure) {
+        return exponents_of_samples(groups, what.exponent_along, measure,
+                                    is_frequency ? groups.size() : 3);
+      };
+      const Exponents seen{exponents("rise"), exponents("speed_in")};
+      const std::string over = groups.front().label + (groups.size() == 2 ? " and " : " to ") +
+                               groups.back().label + unit_behind(what.along);
+      if (&row == &cases.front()) reference[over] = seen;
+      const page::Values words{{"case", row.name},
+                               {"range", over},
+                               {"rise", words_with_interval(mean_of(seen.rise))},
+                               {"speed", words_with_interval(mean_of(seen.speed))},
+                               {"change", change_words(reference[over].rise, seen.rise)},
+                               {"speed_change", change_words(reference[over].speed, seen.speed)}};
+      table.rows.push_back({row.name, over, std::to_string(seen.rise.size()), words.at("rise"),
+                            words.at("speed")});
+      section.keep(section.id + ".exponents", words);
+      if (std::exchange(is_first, false)) section.report(section.id + ".claim", words);
     }
   }
   section.add(table);
@@ -177,19 +209,21 @@ void add_changes(const CaseTable& what, const std::vector<Case>& cases, PaperSec
       chances.push_back(change.p());
       table.rows.push_back({row.name, group.label + unit_behind(what.along),
                             words_of_change(change), words_of_p(change.p()), page::Text(),
+                            words_of_change(log_change(*same, group, "aspect_prefactor")),
                             words_of_change(log_change(*same, group, "speed_in")),
                             words_of_change(log_change(*same, group, "gain"))});
     }
   const std::vector<double> corrected = holm(chances);
   for (size_t k = 0; k < corrected.size(); ++k) table.rows[k][4] = words_of_p(corrected[k]);
-  if (what.exponent_along.empty())
-    for (const std::vector<page::Text>& row : table.rows)
-      section.report(section.id + ".claim", {{"case", row[0]},
-                                             {"at", row[1]},
-                                             {"change", row[2]},
-                                             {"p", row[3]},
-                                             {"speed", row[5]},
-                                             {"gain", row[6]}});
+  for (const std::vector<page::Text>& row : table.rows) {
+    const page::Values words{{"case", row[0]},  {"at", row[1]},    {"change", row[2]},
+                             {"p", row[3]},     {"shape", row[5]}, {"speed", row[6]},
+                             {"gain", row[7]}};
+    if (what.exponent_along.empty())
+      section.report(section.id + ".claim", words);
+    else
+      section.keep(section.id + ".change", words);
+  }
   section.add(table);
 }
 
@@ -212,6 +246,8 @@ const PaperNumber paper_numbers[] = {
     {"C at 5 Hz", PaperRange::roughly(paper::prefactor), "prefactor", false},
     {"ρ before the drive", PaperRange::about(paper::solid_fraction_initial, 0.005),
      "density_before", false},
+    {"ρ~0~, at 0.2 s", PaperRange::about(paper::solid_fraction_reference, 0.005),
+     "density_reference", false},
     {"Δρ~1~/ρ~0~ a period at 5 Hz", PaperRange::roughly(paper::gain_per_period), "relative_gain",
      false}};
 
@@ -260,7 +296,7 @@ void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
       cases.push_back({name, std::move(groups)});
   if (cases.empty()) return;
   if (what.has_numbers) add_numbers(cases, section);
-  section.add(stage_table(cases, unit_behind(what.along)));
+  section.add(stage_table(cases, unit_behind(what.along), section));
   if (!what.exponent_along.empty()) add_exponents(what, cases, section);
   if (what.has_changes) add_changes(what, cases, section);
 }
@@ -293,6 +329,18 @@ void fill_replicas(PaperData& data, PaperSection& section) {
                                     {"slow_runs", std::to_string(slow.samples.size())},
                                     {"fast", scatter_words(fast.mean("rise"))},
                                     {"fast_runs", std::to_string(fast.samples.size())}});
+}
+
+void fill_errors(PaperData& data, PaperSection& section) {
+  constexpr double tolerance = 1e-2;  // of the campaign's own solver [g h]
+  std::vector<double> above;
+  int runs = 0;
+  for (const RunRow& row : data.rows())
+    if (row.solver == "nesterov_pgs" && ++runs && row["error"] > tolerance)
+      above.push_back(row["error"]);
+  section.report("tight.errors", {{"runs", std::to_string(runs)},
+                                  {"above", std::to_string(above.size())},
+                                  {"most", page::number(statistics(above).max, 2)}});
 }
 
 void fill_reading(PaperData& data, PaperSection& section) {

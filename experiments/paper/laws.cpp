@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <set>
 
 namespace ballast {
@@ -23,6 +22,12 @@ const std::vector<Series> all_series{
     {"f_max", "force", Ink::vermilion, MarkShape::circle, "force_over_weight", "f~max~"},
     {"g", "gravity", Ink::green, MarkShape::square, "gravity", "g"},
     {"m_w", "mass", Ink::purple, MarkShape::diamond, "grain_share", "m~w~"}};
+/// Larger loads on the lightest wall, in the same box: held against the curve of the others.
+const Series light_wall{.name = "light wall",
+                        .rows = "loads largest_size>0.04",
+                        .ink = Ink::black,
+                        .shape = MarkShape::triangle,
+                        .title = "m~w~  = m/10, f~max~  ≥ 6 m g"};
 
 /// Settings so near to one another are the same: the base run of all series is known again.
 bool are_same(const RunRow& a, const RunRow& b) {
@@ -104,7 +109,20 @@ Curve band(const OneCurve& all, const Low& low, const High& high) {
   return area;
 }
 
-Panel prefactor_panel(const OneCurve& all) {
+/// Means of C along X, their bars the error that the fit gives them.
+Curve curve_of(const OneCurve& all, const std::vector<CurvePoint>& shown, const char* title,
+               Ink ink, MarkShape shape) {
+  Points points;
+  for (const CurvePoint& point : shown) {
+    SampleMean mean = point.group.mean("prefactor");
+    mean.error = mean.mean * all.between.deviation / std::sqrt(1.0 * mean.samples);
+    points.add(to_mm * point.x, mean);
+  }
+  return curve_of(points, page::marked(title), ink, shape);
+}
+
+/// `aside`: points that are not of the curve.
+Panel prefactor_panel(const OneCurve& all, const std::vector<CurvePoint>& aside) {
   Panel panel{.x_label = page::marked("right side of Eq. 3 without *C*,  *X*  (mm)"),
               .y_label = page::marked("*C* = Δ*x*~max~ / *X*"),
               .log_x = true,
@@ -118,20 +136,29 @@ Panel prefactor_panel(const OneCurve& all) {
   panel.curves.push_back(along(
       all, [&](double x) { return all.curve.at(x) / x; }, "quadratic in ln X", Ink::black));
   panel.curves.push_back(along(
-      all, [&](double x) { return all.line.at(x) / x; }, "straight line", Ink::grey, true));
-  for (size_t series = 0; series < all_series.size(); ++series) {
-    Points points;
-    for (const CurvePoint& point : all.points)
-      if (point.series == series) points.add(to_mm * point.x, point.group.mean("prefactor"));
-    if (!points.x.empty())
-      panel.curves.push_back(curve_of(points, page::marked(all_series[series].title),
-                                      all_series[series].ink, all_series[series].shape));
-  }
-  panel.lines = {{paper::prefactor, "the paper’s 0.01", false, Ink::grey}};
+      all, [&](double x) { return all.line.at(x) / x; }, "power law", Ink::grey, true));
+  const auto of_series = [](const std::vector<CurvePoint>& points, size_t series) {
+    std::vector<CurvePoint> chosen;
+    std::ranges::copy_if(points, std::back_inserter(chosen),
+                         [&](const CurvePoint& point) { return point.series == series; });
+    return chosen;
+  };
+  for (size_t k = 0; k < all_series.size(); ++k)
+    if (const auto points = of_series(all.points, k); !points.empty())
+      panel.curves.push_back(
+          curve_of(all, points, all_series[k].title, all_series[k].ink, all_series[k].shape));
+  for (size_t k = 0; k <= all_series.size(); ++k)
+    if (const auto points = of_series(aside, k); !points.empty())
+      panel.curves.push_back(
+          k < all_series.size()
+              ? curve_of(all, points, "f~max~  < 2 m g", Ink::grey, MarkShape::circle)
+              : curve_of(all, points, light_wall.title, light_wall.ink, light_wall.shape));
+  panel.curves.push_back(
+      along(all, [](double) { return paper::prefactor; }, "the paper’s 0.01", Ink::vermilion));
   return panel;
 }
 
-/// C, the local exponent and the force that they mean, along X.
+/// C and the local exponent along X.
 page::Table along_table(const OneCurve& all) {
   page::Table table = page::words_table("curve.along");
   std::vector<double> places{all.least};
@@ -145,8 +172,7 @@ page::Table along_table(const OneCurve& all) {
     table.rows.push_back(
         {page::number(to_mm * x), page::number(to_mm * x * c),
          page::number(c) + " " + page::interval(c * std::exp(-half), c * std::exp(half)),
-         page::number(slope) + " " + page::interval(slope - slope_half, slope + slope_half),
-         page::number(force_of_prefactor(c))});
+         page::number(slope) + " " + page::interval(slope - slope_half, slope + slope_half)});
   }
   return table;
 }
@@ -156,6 +182,10 @@ page::Text percent_words(double deviation) { return page::number(100.0 * deviati
 page::Values words_for(const OneCurve& all) {
   const double c_small = all.curve.at(all.least) / all.least,
                c_large = all.curve.at(all.most) / all.most;
+  const auto [small, large] = std::ranges::minmax(all.points, {}, &CurvePoint::x);
+  const auto mean = [](const CurvePoint& point, RunMeasure measure) {
+    return page::number(point.group.mean(measure).mean, 2);
+  };
   return {{"points", std::to_string(all.points.size())},
           {"curve", words_of(all.curve_misfit)},
           {"line", words_of(all.line_misfit)},
@@ -173,8 +203,10 @@ page::Values words_for(const OneCurve& all) {
           {"c_large", page::number(c_large)},
           {"n_small", page::number(all.curve.fit.at(all.curve.slope_row(all.least)))},
           {"n_large", page::number(all.curve.fit.at(all.curve.slope_row(all.most)))},
-          {"f_small", page::number(force_of_prefactor(c_small), 2)},
-          {"f_large", page::number(force_of_prefactor(c_large), 2)}};
+          {"f_small", mean(small, "push_over_weight")},
+          {"f_large", mean(large, "push_over_weight")},
+          {"carried_small", mean(small, "carried_share")},
+          {"carried_large", mean(large, "carried_share")}};
 }
 
 // Power laws and lines through the origin: Figs. 9, 10 and 11, C against its theory and against the
@@ -208,17 +240,17 @@ std::vector<Law> all_laws() {
       force{"force_over_weight", "*f*~max~ / (*m g*)", 1.0},
       gravity{"gravity", "*g*  (m/s^2^)", 1.0}, mass{"grain_share", "*m* / (*m* + *m*~w~)", 1.0},
       eq3{"eq3", "right side of Eq. 3 without *C*  (mm)", 1e3}, aspect{"aspect", "*L*/*H*", 1.0},
-      theory{"prefactor_theory", "*C* by the theory, from the force as measured", 1.0};
+      ratio{"theory_ratio", "*C* / *C*~theory~", 1.0};
   const Series slow{"5 Hz", "box frequency=5", Ink::blue},
       fast{"20 Hz", "box frequency=20", Ink::vermilion};
   // a run of several families is a point of the first
   const std::vector<Series> everything{
-      {"ν", "frequency; slowest; tightest", Ink::blue},
-      {"f_max", "force", Ink::vermilion, triangle},
+      all_series[0],
+      all_series[1],
       all_series[2],
       all_series[3],
       {"L/H", "box", Ink::orange},
-      {"light wall", "loads", Ink::black, triangle},
+      {"large loads", "loads", Ink::black, triangle},
       {"deposit", "deposits", Ink::grey, square},
       {"grains, size", "shapes; sizes; reading", Ink::sky, diamond}};
   return {{"fig9", "fig9", {all_series[0]}, frequency, rise, -2.0, 10.0},
@@ -229,7 +261,7 @@ std::vector<Law> all_laws() {
           {"fig11", "fig11", all_series, eq3, rise, 1.0, 10.0, paper::prefactor},
           {"box", "box_slow", {slow}, aspect, prefactor, -1.0, 1.5},
           {"box", "box_fast", {fast}, aspect, prefactor, -1.0, 1.5},
-          {"theory", "theory", everything, theory, prefactor, 1.0, not_known, 1.0}};
+          {"theory", "theory", everything, eq3, ratio, 0.0}};
 }
 
 /// Exponent over part of the points: a law that bends has two.
@@ -238,6 +270,12 @@ PowerFit fit_part(const Points& points, double low, double high) {
   for (size_t k = 0; k < points.x.size(); ++k)
     if (points.x[k] >= low && points.x[k] <= high) part.add(points.x[k], {points.y[k]});
   return fit_power(part.x, part.y);
+}
+
+/// y over x; of what is expected to be a constant, y itself.
+Proportion proportion(const Law& law, const Points& points) {
+  const std::vector<double> ones(points.x.size(), 1.0);
+  return fit_proportion(law.exponent == 0.0 ? ones : points.x, points.y);
 }
 
 /// The measured points are in the panel; beside them the fitted power law, the exponent that is
@@ -250,14 +288,16 @@ void draw_lines(const Law& law, const Points& all, const PowerFit& fit, Panel& p
   const double middle = std::exp(logs);
   panel.curves.push_back(curve_of([&](double x) { return fit.at(x); }, range,
                                   "fit, exponent " + page::number(fit.exponent), Ink::black));
-  if (std::isnan(law.reference))
-    panel.curves.push_back(
-        curve_of([&](double x) { return fit.at(middle) * std::pow(x / middle, law.exponent); },
-                 range, "exponent " + page::number(law.exponent, 1), Ink::vermilion, false));
+  if (law.exponent == 0.0)
+    panel.lines = {{1.0, "the theory", false, Ink::grey}};
+  else if (std::isnan(law.reference))
+    panel.curves.push_back(curve_of(
+        [&](double x) { return fit.at(middle) * std::pow(x / middle, law.exponent); }, range,
+        (law.is_of_paper() ? "the paper’s exponent " : "exponent ") + page::number(law.exponent, 1),
+        Ink::vermilion, false));
   else
     panel.curves.push_back(curve_of([&](double x) { return law.reference * x; }, range,
-                                    law.is_of_paper() ? "the paper’s C = 0.01" : "the theory",
-                                    Ink::grey));
+                                    "the paper’s C = 0.01", Ink::grey));
 }
 
 void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& section) {
@@ -265,12 +305,12 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
               .y_label = page::marked(law.y.label),
               .log_x = true,
               .log_y = true};
-  std::set<std::string> seen;  // equal runs of several stages and families are one point
+  std::set<std::string> seen;  // equal records of several stages and families are one point
   Groups drawn;
   for (const Series& family : law.families) {
     Groups distinct;
     for (Group& group : data.settings(family.rows))
-      if (law.is_of_paper() || seen.insert(group.samples.front()->key).second)
+      if (law.is_of_paper() || seen.insert(group.samples.front()->record).second)
         distinct.push_back(std::move(group));
     std::ranges::sort(distinct, {},
                       [&](const Group& group) { return group.mean(law.x.measure).mean; });
@@ -278,26 +318,35 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
         points_of(distinct, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
     if (points.x.empty()) continue;
     drawn.insert(drawn.end(), distinct.begin(), distinct.end());
-    panel.curves.push_back(curve_of(points, family.name, family.ink, family.shape));
+    panel.curves.push_back(curve_of(points, page::marked(family.title ? family.title : family.name),
+                                    family.ink, family.shape));
     const PowerFit fit = fit_power(points.x, points.y);
-    const Proportion ratio = fit_proportion(points.x, points.y);
     table.rows.push_back({page::words(law.name + std::string(".title")), family.name,
                           std::to_string(points.x.size()), words_of(fit),
                           words_of(misfit_of(fit, points)),
-                          law.exponent == 1.0 ? words_of(ratio) : page::Text("–")});
+                          law.exponent == 0.0 || law.exponent == 1.0
+                              ? words_of(proportion(law, points))
+                              : page::Text("–")});
   }
   const Points all = points_of(drawn, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
   const PowerFit fit = fit_power(all.x, all.y);
   if (!std::isfinite(fit.exponent)) return;
   const VarianceRatio misfit = misfit_of(fit, all);
-  const Proportion ratio = fit_proportion(all.x, all.y);
+  const Proportion ratio = proportion(law, all);
+  const auto [low, high] = std::ranges::minmax(all.x);
+  const Points push = points_of(drawn, law.x.measure, "push_over_weight");
   const page::Values words{{"points", std::to_string(all.x.size())},
                            {"exponent", words_of(fit)},
                            {"misfit", words_of(misfit)},
                            {"low", words_of(fit_part(all, 0.0, law.split))},
                            {"high", words_of(fit_part(all, law.split, 1e9))},
                            {"ratio", words_of(ratio)},
-                           {"spread", page::number(ratio.spread)}};
+                           {"spread", page::number(ratio.spread)},
+                           {"least", page::number(*std::ranges::min_element(all.y))},
+                           {"most", page::number(*std::ranges::max_element(all.y))},
+                           {"at_low", page::number(fit.at(low), 2)},
+                           {"at_high", page::number(fit.at(high), 2)},
+                           {"push", words_of(fit_power(push.x, push.y))}};
   draw_lines(law, all, fit, panel);
   section.draw(law.name, {.height = 480, .panels = {panel}}, words);
   const std::string claim = law.name + std::string(".claim");
@@ -308,19 +357,29 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
                   {.value = ratio.factor, .low = ratio.low, .high = ratio.high});
 }
 
-/// The curve without loads near the weight, for which f_max >> f_g does not hold.
-void report_larger_loads(const std::vector<Groups>& groups, PaperSection& section) {
-  std::vector<Groups> larger = groups;
-  for (Groups& series : larger)
-    std::erase_if(series, [](const Group& group) {
-      return (*group.samples.front())["force_over_weight"] < least_load;
+/// Points of `groups` that are not of the curve. Said of them: whether all fall on one curve, and how
+/// far these lie from that without them.
+std::vector<CurvePoint> points_beside(const char* name, const OneCurve& all,
+                                      const std::vector<Groups>& groups, PaperSection& section) {
+  OneCurve more = one_curve(groups);
+  std::vector<CurvePoint> others = std::move(more.points);
+  const size_t count = others.size();
+  std::erase_if(others, [&](const CurvePoint& point) {
+    return std::ranges::any_of(all.points, [&](const CurvePoint& known) {
+      return known.group.samples.front() == point.group.samples.front();
     });
-  const OneCurve curve = one_curve(larger);
-  section.report("curve.loads", {{"load", page::number(least_load, 2)},
-                                 {"points", std::to_string(curve.points.size())},
-                                 {"curve", words_of(curve.curve_misfit)},
-                                 {"paired", words_of(curve.paired_misfit)},
-                                 {"line", words_of(curve.line_misfit)}});
+  });
+  if (others.empty()) return others;
+  std::vector<double> off;
+  for (const CurvePoint& point : others)
+    off.push_back(std::exp(point.log_rise()) / all.curve.at(point.x) - 1.0);
+  const auto [least, most] = std::ranges::minmax(off);
+  section.report(name, {{"points", std::to_string(count)},
+                        {"others", std::to_string(others.size())},
+                        {"curve", words_of(more.curve_misfit)},
+                        {"least", percent_words(least)},
+                        {"most", percent_words(most)}});
+  return others;
 }
 
 }  // namespace
@@ -377,25 +436,31 @@ OneCurve one_curve(const std::vector<Groups>& groups) {
   return all;
 }
 
-double force_of_prefactor(double prefactor) {
-  return 2.0 / 3.0 * std::numbers::pi * std::sqrt(prefactor);
-}
-
 void fill_curve(PaperData& data, PaperSection& section) {
   std::vector<Groups> groups;
   for (const Series& series : all_series) groups.push_back(data.groups(series.rows, series.along));
-  const OneCurve all = one_curve(groups);
+  // X has the ratio of the masses and of f_max to the weight only where f_max >> f_g
+  std::vector<Groups> larger = groups;
+  for (Groups& series : larger)
+    std::erase_if(series, [](const Group& group) {
+      return (*group.samples.front())["force_over_weight"] < least_load;
+    });
+  const OneCurve all = one_curve(larger);
   if (!all.is_known()) return;
+  std::vector<CurvePoint> aside = points_beside("curve.small_loads", all, groups, section);
+  larger.push_back(data.settings(light_wall.rows));
+  for (CurvePoint& point : points_beside("curve.light_wall", all, larger, section))
+    aside.push_back(std::move(point));
   const page::Values words = words_for(all);
-  section.draw("fig11b", {.height = 480, .panels = {prefactor_panel(all)}}, words);
+  section.draw("fig11b", {.height = 480, .panels = {prefactor_panel(all, aside)}}, words);
   section.text.push_back(page::words("curve.theory", words));
   section.add(along_table(all));
   const double half = student_t95(all.between.degrees_of_freedom) * all.offset_error;
-  section.claim("curve.grouping", words, PaperRange::about(0.0, 0.1),
-                Found::about(all.largest_offset, half, all.curve_misfit.p));
+  Found grouping = Found::about(all.largest_offset, half, all.curve_misfit.p);
+  grouping.is_whole = aside.empty();
+  section.claim("curve.grouping", words, PaperRange::about(0.0, 0.1), grouping);
   section.report("curve.shape", words);
   section.report("curve.bend", words);
-  report_larger_loads(groups, section);
   report_box(data, section);
 }
 

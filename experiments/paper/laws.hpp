@@ -53,8 +53,4 @@ constexpr double least_load = 2.0;
 /// A finding: C with the shape of the box as a second variable beside X.
 void report_box(PaperData& data, PaperSection& section);
 
-/// The force of the grains over m g that gives this C in the limit f_max >> f_g, when the wall and
-/// all grains move together: C = (9/4 pi^2) (F/m g)^2.
-double force_of_prefactor(double prefactor);
-
 }  // namespace ballast

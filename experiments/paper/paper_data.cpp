@@ -184,6 +184,10 @@ RunRow::RunRow(const RunSummary& run) : solver(run.facts.solver) {
 double RunRow::operator[](RunMeasure measure) const {
   const RunRow& run = *this;
   if (measure == "relative_gain") return run["gain"] / run["density_reference"];
+  if (measure == "theory_ratio") return run["prefactor"] / run["prefactor_theory"];
+  if (measure == "aspect_prefactor") return run["prefactor"] * run["aspect"];
+  if (measure == "carried_share") return run["carried_mass"] / run["grain_mass"];
+  if (measure == "yield_over_push") return run["yield_over_weight"] / run["push_over_weight"];
   if (measure == "grain_share") return 1.0 / (1.0 + run["wall_mass_over_grains"]);
   if (measure == "grains_across") return std::cbrt(run["grains"]);
   return numbers[place_of(measure)];
@@ -301,16 +305,16 @@ SampleMean log_change(const Group& from, const Group& to, RunMeasure measure) {
   return sample_mean(changes);
 }
 
-SampleMean exponent_by_sample(const Groups& groups, RunMeasure along, RunMeasure measure,
-                              size_t fewest) {
+std::map<double, double> exponents_of_samples(const Groups& groups, RunMeasure along,
+                                              RunMeasure measure, size_t fewest) {
   std::map<double, Points> samples;  // by seed
   for (const Group& group : groups)
     for (const RunRow* row : group.samples)
       samples[(*row)["seed"]].add((*row)[along], {(*row)[measure]});
-  std::vector<double> exponents;
+  std::map<double, double> exponents;
   for (const auto& [seed, points] : samples)
-    if (points.x.size() >= fewest) exponents.push_back(fit_power(points.x, points.y).exponent);
-  return sample_mean(exponents);
+    if (points.x.size() >= fewest) exponents[seed] = fit_power(points.x, points.y).exponent;
+  return exponents;
 }
 
 PooledError scatter_between(const Groups& groups, RunMeasure measure) {

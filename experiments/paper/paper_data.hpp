@@ -49,6 +49,8 @@ std::span<const RunColumn> run_columns();
 ///   relative_gain  Delta rho_1/rho_0
 ///   grain_share    m/(m + m_w)
 ///   grains_across  cube root of the number of grains
+///   carried_share, yield_over_push          M/m; the load where the stroke begins, over F
+///   theory_ratio, aspect_prefactor          C over the theory's; C L/H
 /// SI units; NaN: not known.
 using RunMeasure = std::string_view;
 /// What stands behind a value of it: " Hz"; empty without a unit.
@@ -111,10 +113,10 @@ Points points_of(const Groups& groups, RunMeasure x, RunMeasure y, double x_fact
 
 /// Over the samples that both have: ln of `measure` at `to` less that at `from`.
 SampleMean log_change(const Group& from, const Group& to, RunMeasure measure);
-/// Exponent of `measure` in `along` over the groups, fitted to each sample by itself: its mean over
-/// the samples with at least so many values. What a packing does at all values drops out.
-SampleMean exponent_by_sample(const Groups& groups, RunMeasure along, RunMeasure measure,
-                              size_t fewest = 3);
+/// Exponent of `measure` in `along` over the groups, fitted to each sample by itself that has at
+/// least so many values, by its seed. What a packing does at all values drops out.
+std::map<double, double> exponents_of_samples(const Groups& groups, RunMeasure along,
+                                              RunMeasure measure, size_t fewest = 3);
 
 /// How the logarithm of a measure scatters, pooled over groups: between samples of grains; and from
 /// run to run of one packing, where what a packing has in common in all groups is taken out (of the

@@ -141,7 +141,7 @@ std::span<const ReportSection> paper_sections() {
       {"fig13", {"frequency", "slowest"}, fill_rates},
       {"box", {"box"}},
       {"replicas", {"replicas"}, fill_replicas},
-      {"tight", {"tightest", "rule", "frequency"}},
+      {"tight", {"tightest", "rule", "frequency"}, fill_errors},
       {"deposits", {"deposits"}},
       {"preparation", {"preparation", "reading"}},
       {"compaction", {"compaction"}, fill_compaction},

@@ -167,6 +167,7 @@ void fill_curve(PaperData& data, PaperSection& section);   ///< all that is vari
 void fill_theory(PaperData& data, PaperSection& section);  ///< exponents of F and of the mass
 void fill_rates(PaperData& data, PaperSection& section);   ///< Fig. 13 (Eqs. 4 and 5)
 void fill_replicas(PaperData& data, PaperSection& section);
+void fill_errors(PaperData& data, PaperSection& section);      ///< of all runs
 void fill_reading(PaperData& data, PaperSection& section);     ///< both scenes beside the paper
 void fill_compaction(PaperData& data, PaperSection& section);  ///< the rate by three windows
 void fill_motion(PaperData& data, PaperSection& section);      ///< Fig. 3: x(t), first contraction

@@ -1,6 +1,7 @@
 // What C goes with: fits of its logarithm over settings that differ in anything, and C beside the
 // theory without a free parameter.
 
+#include <algorithm>
 #include <map>
 
 #include "experiments/paper/laws.hpp"
@@ -17,10 +18,12 @@ Selection one_kind_of_grains(const std::string& loads) {
 /// ln C of settings against logarithms of what was measured or set, all errors the pooled one.
 class LogFits {
  public:
-  /// Settings in which C or `needed` is not known are left out.
-  LogFits(Groups settings, RunMeasure needed) : settings_(std::move(settings)) {
+  /// Settings in which C or a part of `needed` is not known are left out.
+  LogFits(Groups settings, std::vector<RunMeasure> needed) : settings_(std::move(settings)) {
+    needed.push_back("prefactor");
     std::erase_if(settings_, [&](const Group& group) {
-      return !std::isfinite(group.log_mean("prefactor") + group.log_mean(needed));
+      return std::ranges::any_of(
+          needed, [&](RunMeasure measure) { return !std::isfinite(group.log_mean(measure)); });
     });
     error_ = scatter_between(settings_, "prefactor");
   }
@@ -60,14 +63,31 @@ class LogFits {
   PooledError error_;
 };
 
+/// Whether the load at which a jam gives way tells what the theory's factor goes with: over all
+/// settings of which it is known.
+void report_start(PaperData& data, PaperSection& section) {
+  const LogFits all(data.settings("slowest; deposits; loads; shapes; sizes; reading; preparation"),
+                    {"prefactor_theory", "yield_over_push"});
+  if (!all.is_known(6)) return;
+  const Eigen::VectorXd force = all.log("push_over_weight"),
+                        mass = all.log("prefactor_theory") - 2.0 * force;
+  const WeightedFit start = all.fit({force, mass, all.log("yield_over_push")});
+  section.report("theory.start", {{"points", std::to_string(all.size())},
+                                  {"start", all.exponent(start, 3)},
+                                  {"misfit", all.misfit(start)},
+                                  {"with_x", all.misfit(all.fit({force, mass, all.log("eq3")}))}});
+}
+
 /// By how much C is more than the theory's, frequency by frequency, in every deposit that was
 /// driven.
 void report_factors(PaperData& data, PaperSection& section) {
-  std::map<double, std::vector<double>> factors, starts;  // by frequency: one for each deposit
+  // by frequency: one for each deposit
+  std::map<double, std::vector<double>> factors, starts, over_push;
   for (const Group& group : data.settings("preparation")) {
     const double frequency = (*group.samples.front())["frequency"];
-    factors[frequency].push_back(group.log_mean("prefactor") - group.log_mean("prefactor_theory"));
+    factors[frequency].push_back(group.log_mean("theory_ratio"));
     starts[frequency].push_back(group.mean("yield_over_weight").mean);
+    over_push[frequency].push_back(group.mean("yield_over_push").mean);
   }
   for (const auto& [frequency, logs] : factors) {
     const SampleMean mean = sample_mean(logs);
@@ -78,7 +98,8 @@ void report_factors(PaperData& data, PaperSection& section) {
                     {"factor", page::number(std::exp(mean.mean))},
                     {"scatter", page::number(100.0 * mean.deviation(), 2) + " %"},
                     {"start_least", page::number(start.min, 2)},
-                    {"start_most", page::number(start.max, 2)}});
+                    {"start_most", page::number(start.max, 2)},
+                    {"start_push", page::number(statistics(over_push[frequency]).mean, 2)}});
   }
 }
 
@@ -86,7 +107,7 @@ void report_factors(PaperData& data, PaperSection& section) {
 
 void report_box(PaperData& data, PaperSection& section) {
   const std::string loads = printed("force_over_weight>%g", 0.99 * least_load);
-  const LogFits all(data.settings(one_kind_of_grains(loads)), "aspect");
+  const LogFits all(data.settings(one_kind_of_grains(loads)), {"aspect"});
   if (!all.is_known(8)) return;
   const Eigen::VectorXd x = all.log("eq3");
   const WeightedFit fit = all.fit({x, x.cwiseAbs2(), all.log("aspect")});
@@ -97,17 +118,18 @@ void report_box(PaperData& data, PaperSection& section) {
 
 void fill_theory(PaperData& data, PaperSection& section) {
   report_factors(data, section);
-  const LogFits all(data.settings(one_kind_of_grains("")), "prefactor_theory");
+  const LogFits all(data.settings(one_kind_of_grains("")), {"prefactor_theory"});
   if (!all.is_known(6)) return;
   const Eigen::VectorXd force = all.log("push_over_weight"),
                         mass = all.log("prefactor_theory") - 2.0 * force;
   const WeightedFit free = all.fit({force, mass}), more = all.fit({force, mass, all.log("eq3")});
   section.report("theory.free", {{"points", std::to_string(all.size())},
-                                 {"force", all.exponent(free, 1)},
-                                 {"mass", all.exponent(free, 2)},
-                                 {"misfit", all.misfit(free)},
+                                 {"force", all.exponent(more, 1)},
+                                 {"mass", all.exponent(more, 2)},
                                  {"x", all.exponent(more, 3)},
-                                 {"gain", words_of(improvement(free, more), "F")}});
+                                 {"misfit", all.misfit(more)},
+                                 {"without", all.misfit(free)}});
+  report_start(data, section);
 }
 
 }  // namespace ballast

@@ -117,7 +117,7 @@ TEST_CASE("each preparation stands beside the paper's numbers, each window of co
   // the paper, then three pressures by two frictions and the shorter fall
   REQUIRE(preparation.tables[0].rows.size() == 8);
   CHECK(plain_words(preparation.tables[0].rows[7][1]).starts_with("−1.80"));
-  CHECK(found_of(preparation, "a shorter fall, lid placed, μ 0.4").starts_with("of 5 numbers"));
+  CHECK(found_of(preparation, "a shorter fall, lid placed, μ 0.4").starts_with("of 6 numbers"));
   const PaperSection compaction = section_named(data, "compaction");
   REQUIRE(compaction.figures.size() == 1);
   CHECK(compaction.figures[0].plot.panels[0].curves.size() == 3);

@@ -85,8 +85,3 @@ TEST_CASE("a law that Eq. 3 does not group is seen") {
   CHECK(shifted.largest_offset == Approx(0.4).margin(4.0 * shifted.offset_error));
   CHECK(shifted.curve_misfit.p < 1e-3);
 }
-
-TEST_CASE("a constant force's prefactor gives the force back") {
-  // C = (9/4 pi^2) (F/m g)^2 with F = m g
-  CHECK(force_of_prefactor(9.0 / (4.0 * std::acos(-1.0) * std::acos(-1.0))) == Approx(1.0));
-}
