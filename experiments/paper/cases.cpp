@@ -186,8 +186,8 @@ void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperS
                                {"speed", words_with_interval(mean_of(seen.speed))},
                                {"change", change_words(reference[over].rise, seen.rise)},
                                {"speed_change", change_words(reference[over].speed, seen.speed)}};
-      table.rows.push_back({row.name, over, std::to_string(seen.rise.size()), words.at("rise"),
-                            words.at("speed")});
+      table.rows.push_back(
+          {row.name, over, std::to_string(seen.rise.size()), words.at("rise"), words.at("speed")});
       section.keep(section.id + ".exponents", words);
       if (std::exchange(is_first, false)) section.report(section.id + ".claim", words);
     }
@@ -216,8 +216,8 @@ void add_changes(const CaseTable& what, const std::vector<Case>& cases, PaperSec
   const std::vector<double> corrected = holm(chances);
   for (size_t k = 0; k < corrected.size(); ++k) table.rows[k][4] = words_of_p(corrected[k]);
   for (const std::vector<page::Text>& row : table.rows) {
-    const page::Values words{{"case", row[0]},  {"at", row[1]},    {"change", row[2]},
-                             {"p", row[3]},     {"shape", row[5]}, {"speed", row[6]},
+    const page::Values words{{"case", row[0]}, {"at", row[1]},    {"change", row[2]},
+                             {"p", row[3]},    {"shape", row[5]}, {"speed", row[6]},
                              {"gain", row[7]}};
     if (what.exponent_along.empty())
       section.report(section.id + ".claim", words);

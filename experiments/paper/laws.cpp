@@ -153,8 +153,8 @@ Panel prefactor_panel(const OneCurve& all, const std::vector<CurvePoint>& aside)
           k < all_series.size()
               ? curve_of(all, points, "f~max~  < 2 m g", Ink::grey, MarkShape::circle)
               : curve_of(all, points, light_wall.title, light_wall.ink, light_wall.shape));
-  panel.curves.push_back(
-      along(all, [](double) { return paper::prefactor; }, "the paper’s 0.01", Ink::vermilion));
+  panel.curves.push_back(along(
+      all, [](double) { return paper::prefactor; }, "the paper’s 0.01", Ink::vermilion));
   return panel;
 }
 
@@ -321,12 +321,11 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
     panel.curves.push_back(curve_of(points, page::marked(family.title ? family.title : family.name),
                                     family.ink, family.shape));
     const PowerFit fit = fit_power(points.x, points.y);
-    table.rows.push_back({page::words(law.name + std::string(".title")), family.name,
-                          std::to_string(points.x.size()), words_of(fit),
-                          words_of(misfit_of(fit, points)),
-                          law.exponent == 0.0 || law.exponent == 1.0
-                              ? words_of(proportion(law, points))
-                              : page::Text("–")});
+    table.rows.push_back(
+        {page::words(law.name + std::string(".title")), family.name,
+         std::to_string(points.x.size()), words_of(fit), words_of(misfit_of(fit, points)),
+         law.exponent == 0.0 || law.exponent == 1.0 ? words_of(proportion(law, points))
+                                                    : page::Text("–")});
   }
   const Points all = points_of(drawn, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
   const PowerFit fit = fit_power(all.x, all.y);
@@ -357,8 +356,8 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
                   {.value = ratio.factor, .low = ratio.low, .high = ratio.high});
 }
 
-/// Points of `groups` that are not of the curve. Said of them: whether all fall on one curve, and how
-/// far these lie from that without them.
+/// Points of `groups` that are not of the curve. Said of them: whether all fall on one curve, and
+/// how far these lie from that without them.
 std::vector<CurvePoint> points_beside(const char* name, const OneCurve& all,
                                       const std::vector<Groups>& groups, PaperSection& section) {
   OneCurve more = one_curve(groups);
