@@ -262,7 +262,7 @@ template std::vector<int> Hdf5Reader::read(const std::string&) const;
 template std::vector<std::uint64_t> Hdf5Reader::read(const std::string&) const;
 
 int Hdf5Reader::read_int(const std::string& name) const {
-  const std::vector<int> values = read_ints(name);
+  const std::vector<int> values = read<int>(name);
   if (values.size() != 1)
     fail(name + " has " + std::to_string(values.size()) + " entries, must have 1");
   return values[0];
@@ -303,8 +303,9 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
   require_stored(name, dataset, count);
   std::vector<char*> pointers(count, nullptr);
   check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "read " + name);
-  // HDF5 allocated each text: copied, then given back to it.
-  std::vector<std::string> texts(pointers.begin(), pointers.end());
+  // HDF5 allocated each text: copied, then given back to it. What was never written is null.
+  std::vector<std::string> texts;
+  for (const char* text : pointers) texts.emplace_back(text ? text : "");
   H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
   return texts;
 }

@@ -61,11 +61,9 @@ class Hdf5Reader : public Hdf5File {
 
   bool has(const std::string& name) const;
   Hdf5Shape shape(const std::string& name) const;
-  std::vector<double> read_doubles(const std::string& name) const { return read<double>(name); }
-  std::vector<int> read_ints(const std::string& name) const { return read<int>(name); }
-  std::vector<std::uint64_t> read_keys(const std::string& name) const {
-    return read<std::uint64_t>(name);
-  }
+  /// All entries of a dataset of numbers: Value is double, int or std::uint64_t.
+  template <typename Value>
+  std::vector<Value> read(const std::string& name) const;
   /// The only entry of a dataset.
   int read_int(const std::string& name) const;
   /// As Hdf5Writer::add_text left it.
@@ -78,8 +76,6 @@ class Hdf5Reader : public Hdf5File {
   Hdf5Id open(const std::string& name) const;
   void require_stored(const std::string& name, const Hdf5Id& dataset,
                       unsigned long long entries) const;
-  template <typename Value>
-  std::vector<Value> read(const std::string& name) const;
 
   Hdf5Id file_;
 };

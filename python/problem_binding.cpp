@@ -1,6 +1,9 @@
 // Problems, their solution and their judge for Python, and what runs and foreign programs leave in
 // files; what users see is ballast/__init__.py.
 
+#include <cmath>
+#include <limits>
+
 #include "experiments/external/external_program.hpp"
 #include "experiments/step/step_record.hpp"
 #include "problems/algebra/contact_error.hpp"
@@ -214,7 +217,7 @@ py::array dataset(const std::filesystem::path& path, const std::string& name) {
   const Hdf5Reader file(path);
   std::vector<py::ssize_t> shape;
   for (const auto length : file.shape(name)) shape.push_back(static_cast<py::ssize_t>(length));
-  return owned(file.read_doubles(name), shape);
+  return owned(file.read<double>(name), shape);
 }
 
 void answer(const ExternalRequest& request, const std::filesystem::path& file, int status,
@@ -229,8 +232,11 @@ void answer(const ExternalRequest& request, const std::filesystem::path& file, i
   if (history.size() % 3 != 0)
     throw std::invalid_argument("history has " + std::to_string(history.size()) +
                                 " entries, must have three per point");
-  for (const double* point = history.data(); point != history.data() + history.size(); point += 3)
+  for (const double* point = history.data(); point != history.data() + history.size(); point += 3) {
+    if (!(std::abs(point[0]) <= std::numeric_limits<int>::max()))
+      throw std::invalid_argument("history has an iteration that is no count");
     answer.history.push_back({static_cast<int>(point[0]), point[1], point[2]});
+  }
   write_answer(file, request, answer);
 }
 

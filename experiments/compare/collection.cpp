@@ -161,7 +161,7 @@ class Collection {
     if (is_there(answer)) {
       const Hdf5Reader kept(answer);
       const auto number = [&](const char* entry) {
-        return kept.read_doubles(std::string("/ballast_answer/") + entry).at(0);
+        return kept.read<double>(std::string("/ballast_answer/") + entry).at(0);
       };
       known.error = number("error");
       known.is_exact = number("exact") != 0.0;

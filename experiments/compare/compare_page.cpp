@@ -38,42 +38,22 @@ page::Text time_of(double seconds) {
 
 /// Backends side by side.
 page::Table backends_table(const CompareTable& table) {
-  using S = const BackendSummary&;
-  struct Column {
-    const char* head;
-    page::Text (*text)(S);
-    bool is_number = true;
-  };
-  /// Nothing for what did not happen.
-  static constexpr auto if_any = [](long count) {
+  // nothing for what did not happen
+  const auto if_any = [](long count) {
     return count == 0 ? page::Text() : page::exact(static_cast<double>(count));
   };
-  static const Column columns[] = {
-      {"backend", [](S s) { return page::Text(s.solver); }, false},
-      {"law", [](S s) { return page::Text(s.law); }, false},
-      {"solved",
-       [](S s) { return page::exact(s.solved) + " of " + page::exact(s.solved + s.unsolved); }},
-      {"mean time", [](S s) { return time_of(s.mean_seconds); }},
-      {"unsolved in it", [](S s) { return page::styled(if_any(s.unsolved), page::bad); }},
-      {"over fastest", [](S s) { return page::number(s.mean_ratio); }},
-      {"timeouts", [](S s) { return if_any(s.timeouts); }},
-      {"crashes", [](S s) { return if_any(s.crashes); }},
-      {"not taken", [](S s) { return if_any(s.unsupported); }},
-      {"no solution", [](S s) { return if_any(s.no_solutions); }},
-      {"claims denied", [](S s) { return page::styled(if_any(s.denied), page::bad); }},
-      {"spread", [](S s) {
-         return s.largest_spread > 0.0 ? page::quantity(100.0 * s.largest_spread, "%", 2)
-                                       : page::Text();
-       }}};
-  page::Table result;
-  for (const Column& column : columns) {
-    result.head.push_back(column.head);
-    result.is_number.push_back(column.is_number);
-  }
-  for (const BackendSummary& summary : table.backends) {
-    std::vector<page::Text>& line = result.rows.emplace_back();
-    for (const Column& column : columns) line.push_back(column.text(summary));
-  }
+  page::Table result{.head = {"backend", "law", "solved", "mean time", "unsolved in it",
+                              "over fastest", "timeouts", "crashes", "not taken", "no solution",
+                              "claims denied", "spread"}};
+  result.is_number.assign(result.head.size(), true);
+  result.is_number[0] = result.is_number[1] = false;
+  for (const BackendSummary& s : table.backends)
+    result.rows.push_back(
+        {s.solver, s.law, page::exact(s.solved) + " of " + page::exact(s.solved + s.unsolved),
+         time_of(s.mean_seconds), page::styled(if_any(s.unsolved), page::bad),
+         page::number(s.mean_ratio), if_any(s.timeouts), if_any(s.crashes), if_any(s.unsupported),
+         if_any(s.no_solutions), page::styled(if_any(s.denied), page::bad),
+         s.largest_spread > 0.0 ? page::quantity(100.0 * s.largest_spread, "%", 2) : page::Text()});
   return result;
 }
 
@@ -220,10 +200,9 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
                {"shift", summary_shift},
                {"again", again(data, rows[0])}};
   // `viewable`: cases whose bodies are known
-  for (const char* name : {"columns", "rows", "viewable"}) json[name] = Json::array();
+  json["columns"] = compare_columns();
+  for (const char* name : {"rows", "viewable"}) json[name] = Json::array();
   for (const char* name : {"words", "histories"}) json[name] = Json::object();
-  for (const CompareColumn& column : compare_columns())
-    json["columns"].push_back({column.name, column.description});
   const size_t points = std::clamp<size_t>(most_points / rows.size(), 8, 100);
   std::set<std::string> viewable;
   for (const CompareRow& row : rows) {

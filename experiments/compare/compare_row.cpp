@@ -25,55 +25,57 @@ Enum by_name(const char* const (&names)[count], const std::string& name, const c
   throw std::invalid_argument("'" + name + "' is no " + what + "; there are: " + joined(names));
 }
 
-/// Calls f(name, member, description) for every column: the one list that CSV, JSON and the child's
+/// Calls f(name, member) for every column: the one list that CSV, JSON and the child's
 /// message are written and read by.
 template <typename Row, typename F>
 void for_columns(Row& row, F&& f) {
-  double seconds = row.seconds();  // a sum: what is read into it is read again from its parts
-  f("case", row.case_name, "problem");
-  f("family", row.family, "problems of one kind");
-  f("solver", row.solver, "backend");
-  f("law", row.law, "that the backend solves; each is judged on Coulomb's");
-  f("measure", row.measure, "what the tolerance bounds");
-  f("tolerance", row.tolerance, "relative");
-  f("start", row.start, "cold: zero; warm: the run's");
-  f("repeat", row.repeat, "from 0");
-  f("max_seconds", row.max_seconds, "the limit");
-  f("verdict", row.verdict, "solved: the backend says so and the judge agrees");
-  f("reason", row.reason, "why the backend stopped");
-  f("error", row.error, "in the measure");
-  f("seconds", seconds, "prepare and solve, fastest run in the child");
-  f("prepare_seconds", row.prepare_seconds, "");
-  f("solve_seconds", row.solve_seconds, "");
-  f("startup_seconds", row.startup_seconds,
-    "making the solver, processes, a foreign library's form: in no other");
-  f("runs", row.runs, "solves in the child");
-  f("iterations", row.iterations, "");
-  f("natural_map_rms", row.natural_map_rms, "[m/s]");
-  f("natural_map_max", row.natural_map_max, "[m/s]");
-  f("fclib", row.fclib, "what Siconos prints");
-  f("cone_violation", row.cone_violation, "[N s]");
-  f("min_normal_velocity", row.min_normal_velocity, "[m/s]");
-  f("worst", row.worst, "contact of natural_map_max");
-  f("velocity_distance", row.distance.velocity,
-    "of bodies, from a solution at 1e-9, over the velocity scale; nan: none");
-  f("contact_velocity_distance", row.distance.contact_velocity, "of contacts, rms");
-  f("body_impulse_distance", row.distance.body_impulse, "of H^T r, as a part of the solution's");
-  f("wall_force_distance", row.distance.wall_force,
-    "of the force on the driven wall, as a part of the solution's");
-  f("statuses_wrong", row.distance.statuses,
-    "contacts that are open, stick or slip otherwise; -1: no solution known");
-  f("peak_memory_MB", row.peak_memory_MB, "of the child");
-  f("contacts", row.facts.contacts, "");
-  f("rows", row.facts.rows, "");
-  f("dofs", row.facts.dofs, "unknowns of bodies in contact; 0: only W is known");
-  f("rank_deficiency", row.facts.rank_deficiency, "1 - rank(W)/rows");
-  f("mass_ratio", row.facts.mass_ratio,
-    "of bodies in contact; where only W is known, of lambda_max(W_cc)");
-  f("velocity_scale", row.facts.velocity_scale, "[m/s]");
-  f("note", row.note, "");
-  f("content", row.facts.content, "of problem, start and scale");
-  f("key", row.key, "of problem, backend, options and binary");
+  double seconds = row.seconds();     // a sum: what is read into it is read again from its parts
+  f("case", row.case_name);           // problem
+  f("family", row.family);            // problems of one kind
+  f("solver", row.solver);            // backend
+  f("law", row.law);                  // that the backend solves; each is judged on Coulomb's
+  f("measure", row.measure);          // what the tolerance bounds
+  f("tolerance", row.tolerance);      // relative
+  f("start", row.start);              // cold: zero; warm: the run's
+  f("repeat", row.repeat);            // from 0
+  f("max_seconds", row.max_seconds);  // the limit
+  f("verdict", row.verdict);          // solved: the backend says so and the judge agrees
+  f("reason", row.reason);            // why the backend stopped
+  f("error", row.error);              // in the measure
+  f("seconds", seconds);              // prepare and solve, fastest run in the child
+  f("prepare_seconds", row.prepare_seconds);
+  f("solve_seconds", row.solve_seconds);
+  f("startup_seconds",
+    row.startup_seconds);  // making the solver, processes, a foreign library's form: in no other
+  f("runs", row.runs);     // solves in the child
+  f("iterations", row.iterations);
+  f("natural_map_rms", row.natural_map_rms);          // [m/s]
+  f("natural_map_max", row.natural_map_max);          // [m/s]
+  f("fclib", row.fclib);                              // what Siconos prints
+  f("cone_violation", row.cone_violation);            // [N s]
+  f("min_normal_velocity", row.min_normal_velocity);  // [m/s]
+  f("worst", row.worst);                              // contact of natural_map_max
+  f("velocity_distance",
+    row.distance
+        .velocity);  // of bodies, from a solution at 1e-9, over the velocity scale; nan: none
+  f("contact_velocity_distance", row.distance.contact_velocity);  // of contacts, rms
+  f("body_impulse_distance", row.distance.body_impulse);  // of H^T r, as a part of the solution's
+  f("wall_force_distance",
+    row.distance.wall_force);  // of the force on the driven wall, as a part of the solution's
+  f("statuses_wrong",
+    row.distance
+        .statuses);  // contacts that are open, stick or slip otherwise; -1: no solution known
+  f("peak_memory_MB", row.peak_memory_MB);  // of the child
+  f("contacts", row.facts.contacts);
+  f("rows", row.facts.rows);
+  f("dofs", row.facts.dofs);  // unknowns of bodies in contact; 0: only W is known
+  f("rank_deficiency", row.facts.rank_deficiency);  // 1 - rank(W)/rows
+  f("mass_ratio",
+    row.facts.mass_ratio);  // of bodies in contact; where only W is known, of lambda_max(W_cc)
+  f("velocity_scale", row.facts.velocity_scale);  // [m/s]
+  f("note", row.note);
+  f("content", row.facts.content);  // of problem, start and scale
+  f("key", row.key);                // of problem, backend, options and binary
 }
 
 std::string text_of(const std::string& value) { return value; }
@@ -120,25 +122,22 @@ StartKind start_of(const std::string& name) {
   return by_name<StartKind>(start_names, name, "start");
 }
 
-std::vector<CompareColumn> compare_columns() {
-  std::vector<CompareColumn> columns;
+std::vector<std::string> compare_columns() {
+  std::vector<std::string> columns;
   const CompareRow row;
-  for_columns(row, [&](const char* name, const auto&, const char* description) {
-    columns.push_back({name, description});
-  });
+  for_columns(row, [&](const char* name, const auto&) { columns.emplace_back(name); });
   return columns;
 }
 
 std::vector<std::string> cells_of(const CompareRow& row) {
   std::vector<std::string> cells;
-  for_columns(
-      row, [&](const char*, const auto& value, const char*) { cells.push_back(text_of(value)); });
+  for_columns(row, [&](const char*, const auto& value) { cells.push_back(text_of(value)); });
   return cells;
 }
 
 std::string compare_csv(const std::vector<CompareRow>& rows) {
   CsvWriter csv;
-  for (const CompareColumn& column : compare_columns()) csv.add(column.name);
+  for (const std::string& column : compare_columns()) csv.add(column);
   csv.end_row();
   for (const CompareRow& row : rows) csv.add_row(cells_of(row));
   return csv.take();
@@ -146,8 +145,7 @@ std::string compare_csv(const std::vector<CompareRow>& rows) {
 
 std::string to_json(const CompareRow& row) {
   Json json = Json::object();
-  for_columns(
-      row, [&](const char* name, const auto& value, const char*) { json[name] = json_of(value); });
+  for_columns(row, [&](const char* name, const auto& value) { json[name] = json_of(value); });
   Json& history = json["history"] = Json::array();
   for (const HistoryPoint& h : row.history)
     history.push_back({h.iteration, json_of(h.seconds), json_of(h.error)});
@@ -158,8 +156,7 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file)
   try {
     const Json json = Json::parse(text);
     CompareRow row;
-    for_columns(row,
-                [&](const char* name, auto& value, const char*) { take(json.at(name), value); });
+    for_columns(row, [&](const char* name, auto& value) { take(json.at(name), value); });
     for (const Json& h : json.at("history")) {
       HistoryPoint point;
       take(h.at(0), point.iteration);

@@ -66,11 +66,8 @@ struct CompareRow {
   double seconds() const { return prepare_seconds + solve_seconds; }
 };
 
-/// One column of the CSV; the members of the JSON have the same names.
-struct CompareColumn {
-  const char *name, *description;
-};
-std::vector<CompareColumn> compare_columns();
+/// The columns of the CSV; the members of the JSON have the same names.
+std::vector<std::string> compare_columns();
 /// A row's cells, a column each; numbers in six digits.
 std::vector<std::string> cells_of(const CompareRow& row);
 

@@ -111,14 +111,6 @@ Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& traje
 using LiveLine =
     std::function<void(const Trajectory& t, const Trajectory& reference, Values& x, Values& y)>;
 
-/// One figure with a line for every trajectory.
-struct LiveFigure {
-  const char *name, *title, *y_label;  ///< the label in the notation of marked()
-  bool log_y;
-  bool needs_wall, needs_reference;
-  LiveLine line;
-};
-
 LiveLine column(double StepRecord::*value, double factor) {
   return [=](const Trajectory& t, const Trajectory&, Values& x, Values& y) {
     for (const StepRecord& s : t.steps) {
@@ -149,28 +141,6 @@ void line_of_distance(const Trajectory& t, const Trajectory& reference, Values& 
   y = distances(t, reference);
   for (double& d : y) d *= 1e6;
   x.assign(t.frame_times.begin(), t.frame_times.begin() + static_cast<std::ptrdiff_t>(y.size()));
-}
-
-std::vector<LiveFigure> figures_of(const LiveComparison& comparison) {
-  using R = StepRecord;
-  return {
-      {"live_wall", "Wall trajectory", "wall *x*  (mm)", false, true, false,
-       column(&R::wall_x, 1e3)},
-      {"live_wall_deviation", "Deviation of the wall", "|*x* − *x*~ref~|  (µm)", true, true, true,
-       line_of_deviation},
-      {"live_force", "Force on the wall", "*f*~g~  (N)", false, true, false,
-       column(&R::wall_force, 1.0)},
-      {"live_distance", "Distance from the reference", "rms distance  (µm)", true, false, true,
-       line_of_distance},
-      {"live_error", "Error of the contact law", "error, relative", true, false, false,
-       column(&R::error_rms, 1.0 / comparison.velocity_scale)},
-      {"live_penetration", "Deepest overlap", "deepest overlap  (µm)", true, false, false,
-       column(&R::penetration_max, 1e6)},
-      {"live_energy", "Kinetic energy", "kinetic energy  (J)", true, false, false,
-       column(&R::kinetic_energy, 1.0)},
-      {"live_solid_fraction", "Solid fraction", "solid fraction", false, false, false,
-       column(&R::solid_fraction, 1.0)},
-      {"live_cost", "Cost", "wall clock of the solver  (s)", false, false, false, line_of_cost}};
 }
 
 page::Table numbers_table(const LiveComparison& comparison) {
@@ -250,30 +220,49 @@ std::string steps_csv(const Trajectory& t) {
 }
 
 std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
+  using R = StepRecord;
   const Trajectory* reference = comparison.reference_trajectory();
   std::vector<page::Picture> pictures;
-  for (const LiveFigure& what : figures_of(comparison)) {
-    if (what.needs_reference && !reference) continue;
-    if (what.needs_wall && !comparison.has_driven_wall) continue;
-    Panel panel{.x_label = page::marked("*t*  (s)"),
-                .y_label = page::marked(what.y_label),
-                .log_y = what.log_y};
+  // one figure with a line for every trajectory; of differences from the reference it has none
+  const auto add = [&](const char* name, const char* title, const char* y_label, bool log_y,
+                       const LiveLine& line, bool is_difference = false) {
+    Panel panel{
+        .x_label = page::marked("*t*  (s)"), .y_label = page::marked(y_label), .log_y = log_y};
     for (const Trajectory& t : comparison.trajectories) {
       Curve curve = trajectory_curve(comparison, t);
-      if (!what.needs_reference || &t != reference)
-        what.line(t, reference ? *reference : t, curve.x, curve.y);
+      if (!is_difference || &t != reference) line(t, reference ? *reference : t, curve.x, curve.y);
       if (std::none_of(curve.y.begin(), curve.y.end(),
-                       [&](double v) { return std::isfinite(v) && (!what.log_y || v > 0.0); }))
+                       [&](double v) { return std::isfinite(v) && (!log_y || v > 0.0); }))
         continue;
       thin_out(curve.x, curve.y, 1500);
       panel.curves.push_back(std::move(curve));
     }
-    Figure figure{.name = what.name, .title = what.title};
+    Figure figure{.name = name, .title = title};
     // the key grows, the axes stay
     figure.height = 440 + 22 * static_cast<int>(2 * panel.curves.size() / 3);
     if (!panel.curves.empty()) figure.panels = {std::move(panel)};
-    pictures.push_back({figure, {page::words(std::string(what.name) + ".caption")}});
-  }
+    pictures.push_back({figure, {page::words(std::string(name) + ".caption")}});
+  };
+  const bool has_wall = comparison.has_driven_wall;
+  if (has_wall)
+    add("live_wall", "Wall trajectory", "wall *x*  (mm)", false, column(&R::wall_x, 1e3));
+  if (has_wall && reference)
+    add("live_wall_deviation", "Deviation of the wall", "|*x* − *x*~ref~|  (µm)", true,
+        line_of_deviation, true);
+  if (has_wall)
+    add("live_force", "Force on the wall", "*f*~g~  (N)", false, column(&R::wall_force, 1.0));
+  if (reference)
+    add("live_distance", "Distance from the reference", "rms distance  (µm)", true,
+        line_of_distance, true);
+  add("live_error", "Error of the contact law", "error, relative", true,
+      column(&R::error_rms, 1.0 / comparison.velocity_scale));
+  add("live_penetration", "Deepest overlap", "deepest overlap  (µm)", true,
+      column(&R::penetration_max, 1e6));
+  add("live_energy", "Kinetic energy", "kinetic energy  (J)", true,
+      column(&R::kinetic_energy, 1.0));
+  add("live_solid_fraction", "Solid fraction", "solid fraction", false,
+      column(&R::solid_fraction, 1.0));
+  add("live_cost", "Cost", "wall clock of the solver  (s)", false, line_of_cost);
   return pictures;
 }
 

@@ -36,7 +36,7 @@ void add_number(Hdf5Writer& file, const std::string& name, int value) {
 }
 
 double read_number(const Hdf5Reader& file, const std::string& name, bool may_be_infinite = false) {
-  const std::vector<double> values = file.read_doubles(name);
+  const std::vector<double> values = file.read<double>(name);
   if (values.size() != 1)
     file.fail(name + " has " + std::to_string(values.size()) + " entries, must have 1");
   if (std::isnan(values[0]) || (!may_be_infinite && std::isinf(values[0])))
@@ -46,7 +46,7 @@ double read_number(const Hdf5Reader& file, const std::string& name, bool may_be_
 
 /// Three per contact.
 std::vector<double> read_impulses(const Hdf5Reader& file, const std::string& name, int contacts) {
-  std::vector<double> values = file.read_doubles(name);
+  std::vector<double> values = file.read<double>(name);
   if (values.size() != 3 * static_cast<std::size_t>(contacts))
     file.fail(name + " has " + std::to_string(values.size()) + " entries, " +
               std::to_string(contacts) + " contacts have " + std::to_string(3 * contacts));
@@ -65,7 +65,7 @@ std::vector<HistoryPoint> read_history(const Hdf5Reader& file) {
   const std::string name = answered + "history";
   std::vector<HistoryPoint> history;
   if (!file.has(name)) return history;
-  const std::vector<double> values = file.read_doubles(name);
+  const std::vector<double> values = file.read<double>(name);
   if (values.size() % 3 != 0)
     file.fail(name + " has " + std::to_string(values.size()) +
               " entries, must have three per point: iteration, seconds, error");

@@ -324,7 +324,6 @@ std::string html_of(const Page& page) {
   }
   if (page.answers.are_given && !can_answer())
     html += "<p class=\"note\">" + html_of(words("answers.missing")) + "</p>\n";
-  if (!page.end.empty()) html += "<footer>" + html_of(page.end) + "</footer>\n";
   return html + "</main>\n" + answers_html(page) + "</body>\n</html>\n";
 }
 

@@ -150,20 +150,16 @@ std::string markdown_of(const Block& block) {
   return is_empty(block) ? std::string() : std::visit(MarkdownBlocks{}, block);
 }
 
-std::string markdown_of(const Section& section) {
-  if (section.is_empty()) return {};
-  std::string text = "## " + markdown_of(section.heading) + "\n\n";
-  for (const Block& block : section.blocks) text += markdown_of(block);
-  return text;
-}
-
 std::string markdown_of(const Page& page) {
   std::string text = "# " + escaped_markdown(page.title) + "\n\n";
   for (const Text& line : page.lede)
     if (!line.empty()) text += markdown_of(line) + "\n\n";
   text += markdown_of(Block(page.notices));
-  for (const Section& section : page.sections) text += markdown_of(section);
-  if (!page.end.empty()) text += markdown_of(page.end) + "\n\n";
+  for (const Section& section : page.sections) {
+    if (section.is_empty()) continue;
+    text += "## " + markdown_of(section.heading) + "\n\n";
+    for (const Block& block : section.blocks) text += markdown_of(block);
+  }
   while (text.ends_with("\n\n")) text.pop_back();
   return text;
 }

@@ -12,6 +12,5 @@ std::string markdown_of(const Page& page);
 /// One part of it. Characters that Markdown would take for marks are escaped.
 std::string markdown_of(const Text& text);
 std::string markdown_of(const Block& block);
-std::string markdown_of(const Section& section);
 
 }  // namespace ballast::page

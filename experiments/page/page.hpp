@@ -106,7 +106,6 @@ struct Page {
   std::vector<Text> lede = {};  ///< lines under the title
   Notices notices = {};         ///< stand before everything else
   std::vector<Section> sections = {};
-  Text end = {};  ///< last line; empty: none
   Answers answers = {};
 
   void add(Section section) { sections.push_back(std::move(section)); }

@@ -99,25 +99,13 @@ class Notation {
   Text text_;
 };
 
-/// The first letter of UTF-8 with all its bytes.
-std::string first_letter(std::string_view text) {
-  size_t length = 1;
-  while (length < text.size() && (text[length] & 0xc0) == 0x80) ++length;
-  return std::string(text.substr(0, length));
-}
-
 /// "−4" as "⁻⁴"; empty when a character has no raised form.
-std::string raised(const std::string& text) {
-  static const std::map<std::string, std::string> forms = {
-      {"0", "⁰"}, {"1", "¹"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}, {"5", "⁵"},
-      {"6", "⁶"}, {"7", "⁷"}, {"8", "⁸"}, {"9", "⁹"}, {"−", "⁻"}};
+std::string raised(std::string text) {
+  constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  replace_all(text, "−", "-");
+  if (text.find_first_not_of("-0123456789") != std::string::npos) return {};
   std::string result;
-  for (size_t at = 0; at < text.size();) {
-    const auto form = forms.find(first_letter(std::string_view(text).substr(at)));
-    if (form == forms.end()) return {};
-    result += form->second;
-    at += form->first.size();
-  }
+  for (const char c : text) result += c == '-' ? "⁻" : digits[c - '0'];
   return result;
 }
 
@@ -181,11 +169,6 @@ Text& Text::operator+=(const Text& other) {
 Text styled(Text text, Styles styles) {
   for (Span& span : text.spans) span.styles |= styles;
   return text;
-}
-
-void add_to_list(Text& list, const Text& part, const char* between) {
-  if (!list.empty()) list += between;
-  list += part;
 }
 
 std::vector<Text> parts_of(const Text& text, std::string_view mark) {

@@ -45,9 +45,6 @@ struct Text {
 /// The same words with `styles` added to every run.
 Text styled(Text text, Styles styles);
 
-/// Appends to a list of words.
-void add_to_list(Text& list, const Text& part, const char* between = "; ");
-
 /// The parts between the marks, which no run of the text may share with the next; blanks around a
 /// mark are no part's.
 std::vector<Text> parts_of(const Text& text, std::string_view mark);

@@ -112,10 +112,8 @@ struct Case {
 /// A row for each case and value; what the article cites of them.
 page::Table stage_table(const std::vector<Case>& cases, const std::string& unit,
                         PaperSection& section) {
-  page::Text heads;
-  for (const StageColumn& column : stage_columns)
-    add_to_list(heads, page::marked(column.head), " || ");
-  page::Table table = page::words_table("case_columns", {{"columns", heads}});
+  page::Table table = page::words_table("case_columns");
+  for (const StageColumn& column : stage_columns) table.head.push_back(page::marked(column.head));
   for (const Case& row : cases)
     for (const Group& group : row.groups) {
       table.rows.push_back({row.name, group.label + unit, std::to_string(group.samples.size())});
@@ -263,10 +261,8 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
 
 /// The paper's numbers in every case, each with its verdict; how many each meets is a finding.
 void add_numbers(const std::vector<Case>& cases, PaperSection& section) {
-  page::Text heads;
-  for (const PaperNumber& number : paper_numbers)
-    add_to_list(heads, page::marked(number.name), " || ");
-  page::Table table = page::words_table("paper_numbers", {{"columns", heads}});
+  page::Table table = page::words_table("paper_numbers");
+  for (const PaperNumber& number : paper_numbers) table.head.push_back(page::marked(number.name));
   std::vector<page::Text> asked{"the paper"};
   for (const PaperNumber& number : paper_numbers) asked.push_back(words_of(number.range));
   table.rows.push_back(asked);

@@ -261,11 +261,11 @@ void write_record_file(const std::filesystem::path& path, const MechanicalSystem
 
 std::vector<StepRecord> read_record_steps(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
-  const std::vector<double> time = file.read_doubles("steps/time");
+  const std::vector<double> time = file.read<double>("steps/time");
   require_rows(file, steps_layout(), time.size());
   std::vector<StepRecord> steps(time.size());
   for (const StepColumn& column : step_columns()) {
-    const std::vector<double> values = file.read_doubles(std::string("steps/") + column.name);
+    const std::vector<double> values = file.read<double>(std::string("steps/") + column.name);
     for (size_t k = 0; k < steps.size(); ++k) steps[k].*column.value = values[k];
   }
   return steps;
@@ -291,7 +291,7 @@ std::vector<MotionState> read_record_poses(const std::filesystem::path& path) {
 
 RecordForces::RecordForces(const std::filesystem::path& record) : file_(record) {
   if (!file_.has("contacts")) return;
-  begin_ = file_.read_ints("contacts/frame_begin");
+  begin_ = file_.read<int>("contacts/frame_begin");
   if (begin_.empty() || begin_.front() != 0 || !std::ranges::is_sorted(begin_))
     file_.fail("contacts/frame_begin does not ascend from 0");
   require_rows(file_, contacts_layout(), static_cast<size_t>(begin_.back()));
@@ -385,10 +385,7 @@ MechanicalSystem read_record_system(const std::filesystem::path& path) {
   const size_t count = tables.name.size();
   size_t rows = count;
   const auto read = [&](std::string_view name, auto& values, size_t columns, auto...) {
-    if constexpr (std::is_same_v<decltype(values), std::vector<double>&>)
-      values = file.read_doubles(name.data());
-    else
-      values = file.read_ints(name.data());
+    values = file.read<typename std::decay_t<decltype(values)>::value_type>(name.data());
     if (name == "parts/body") rows = values.size();
     if (!name.starts_with("shapes") && values.size() != columns * rows)
       file.fail("the datasets of /" + std::string(name.substr(0, name.find('/'))) +

@@ -158,11 +158,10 @@ void pack_poses(const ViewData& view, const std::vector<size_t>& chosen, Json& h
   Words positions, rotations;
   Bytes velocities;
   std::vector<Quat> before(grains, Quat::Identity());
-  head["times"] = head["steps"] = Json::array();
+  head["times"] = Json::array();
   for (const size_t f : chosen) {
     const MotionState& frame = view.frames[f];
     head["times"].push_back(frame.time);
-    head["steps"].push_back(frame.step);
     for (size_t g = 0; g < grains; ++g) {
       for (int k = 0; k < 3; ++k) {
         positions.push_back(in_16_bits(frame.pose[g].position[k], low[k], span[k]));

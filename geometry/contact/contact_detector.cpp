@@ -78,8 +78,6 @@ ContactDetector::ContactDetector(std::vector<ContactShape> shapes,
                                  const DetectionSettings& settings, const Period& period)
     : state_(std::make_unique<State>(std::move(shapes), settings, period)) {}
 ContactDetector::~ContactDetector() = default;
-ContactDetector::ContactDetector(ContactDetector&&) noexcept = default;
-ContactDetector& ContactDetector::operator=(ContactDetector&&) noexcept = default;
 const DetectionCounters& ContactDetector::counters() const { return state_->counters; }
 
 void ContactDetector::use_team(WorkerTeam* team, int parts) {

@@ -23,8 +23,6 @@ class ContactDetector {
   ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings,
                   const Period& period = {});
   ~ContactDetector();
-  ContactDetector(ContactDetector&&) noexcept;
-  ContactDetector& operator=(ContactDetector&&) noexcept;
 
   /// poses[i]: pose of body i. reach[i] [m]: bound on how far any point of body i moves until the
   /// next detection. A point is reported when its gap <= reach[a] + reach[b]. `contacts` is

@@ -219,7 +219,10 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   // Whether they count must not depend on the margin with which the broad phase listed them: they
   // count if it would list them without any margin.
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, alert)) return;
-  if (settings_.use_cache) remember(candidate, pair, axis, turn, alert);
+  if (settings_.use_cache) {
+    if (candidate.touching < 0) candidate.touching = new_place();
+    records_.touching[candidate.touching].record(pair, axis, turn, alert, heights_);
+  }
   append(candidate, pair, axis, manifold_.points(pair, axis, alert, settings_.max_points),
          contacts);
 }
@@ -237,12 +240,6 @@ void DetectionPart::append(const CandidatePair& candidate, const PairFrame& fram
       contacts.push_back(
           {a, b, point.key, normal_W, origin + rotation * point.position, point.gap});
   if (contacts.size() > before) ++counters_.manifolds;
-}
-
-void DetectionPart::remember(CandidatePair& candidate, const ShapePair& pair,
-                             const SeparatingAxis& axis, double turn, double alert) {
-  if (candidate.touching < 0) candidate.touching = new_place();
-  records_.touching[candidate.touching].record(pair, axis, turn, alert, heights_);
 }
 
 /// Asks the cache for the record of a pair that is looked at a few pairs from now: the list of

@@ -72,8 +72,6 @@ class DetectionPart {
   void detect_pair(CandidatePair& pair, std::vector<ContactPoint>& contacts);
   void append(const CandidatePair& candidate, const PairFrame& frame, const SeparatingAxis& axis,
               std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts);
-  void remember(CandidatePair& candidate, const ShapePair& pair, const SeparatingAxis& axis,
-                double turn, double alert);
   void bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const;
   void bound_separated(CandidatePair& pair, double distance, double separation) const;
   double bound_use(const CandidatePair& pair) const;

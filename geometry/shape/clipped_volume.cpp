@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/shape/point_sets.hpp"
+
 namespace ballast {
 
 namespace {
@@ -33,11 +35,7 @@ double BoxClipper::volume(const Polyhedron& polyhedron, const Pose& pose, const 
   world_.clear();
   for (const Vec3& vertex : polyhedron.vertices())
     world_.push_back(pose.position + rotation * vertex);
-  Vec3 low = world_[0], high = world_[0];
-  for (const Vec3& point : world_) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
+  const auto [low, high] = bounds_of(world_);
   if ((low.array() >= hi.array()).any() || (high.array() <= lo.array()).any()) return 0.0;
 
   // Along a direction that both planes cut, inside = (below hi) - (below lo). Every combination of

@@ -37,20 +37,15 @@ void each_member(Captured& captured, const Each& each) {
 struct SideReader {
   Hdf5Reader file;
 
-  void operator()(const char* name, std::vector<double>& to, std::size_t size) const {
-    to = sized(file, path_of(name), file.read_doubles(path_of(name)), size);
-  }
-  void operator()(const char* name, std::vector<int>& to, std::size_t size) const {
-    to = sized(file, path_of(name), file.read_ints(path_of(name)), size);
-  }
-  void operator()(const char* name, std::vector<std::uint64_t>& to, std::size_t size) const {
-    to = sized(file, path_of(name), file.read_keys(path_of(name)), size);
+  template <typename Value>
+  void operator()(const char* name, std::vector<Value>& to, std::size_t size) const {
+    to = sized(file, path_of(name), file.read<Value>(path_of(name)), size);
   }
   void operator()(const char* name, Eigen::VectorXd& to, std::size_t size) const {
-    to = as_eigen(sized(file, path_of(name), file.read_doubles(path_of(name)), size));
+    to = as_eigen(sized(file, path_of(name), file.read<double>(path_of(name)), size));
   }
   void operator()(const char* name, double& to) const {
-    to = sized(file, path_of(name), file.read_doubles(path_of(name)), 1)[0];
+    to = sized(file, path_of(name), file.read<double>(path_of(name)), 1)[0];
   }
   void operator()(const char* name, int& to) const { to = file.read_int(path_of(name)); }
   void operator()(const char* name, std::string& to) const { to = file.read_text(path_of(name)); }
@@ -78,7 +73,7 @@ struct SideWriter {
 Division read_division(const SideReader& side, const GlobalProblem& global) {
   Division division;
   std::vector<int>& begin = division.dof_begin;
-  begin = side.file.read_ints(path_of("dof_begin"));
+  begin = side.file.read<int>(path_of("dof_begin"));
   // All of them before the first block is taken: rising as far as M's rows, they stay within M.
   bool fits = !begin.empty() && begin.front() == 0 && begin.back() == global.m.rows();
   for (std::size_t b = 0; fits && b + 1 < begin.size(); ++b)

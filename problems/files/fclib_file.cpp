@@ -190,7 +190,7 @@ constexpr int compressed_columns = -1, compressed_rows = -2;
 
 /// So many finite numbers; of any count where `size` is negative.
 std::vector<double> read_vector(const Hdf5Reader& file, const std::string& path, int size = -1) {
-  std::vector<double> values = file.read_doubles(path);
+  std::vector<double> values = file.read<double>(path);
   if (size >= 0) values = sized(file, path, std::move(values), static_cast<std::size_t>(size));
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
@@ -210,8 +210,8 @@ Matrix read_matrix(const Hdf5Reader& file, const std::string& group, int rows, i
   const int nz = file.read_int(group + "/nz");
   if (nz < compressed_rows)
     file.fail(group + "/nz = " + std::to_string(nz) + " is no known storage");
-  const std::vector<int> p = file.read_ints(group + "/p"), i = file.read_ints(group + "/i");
-  const std::vector<double> x = file.read_doubles(group + "/x");
+  const std::vector<int> p = file.read<int>(group + "/p"), i = file.read<int>(group + "/i");
+  const std::vector<double> x = file.read<double>(group + "/x");
 
   const bool by_rows = nz == compressed_rows;
   const int lines = nz >= 0 ? 0 : by_rows ? rows : columns;

@@ -1,5 +1,6 @@
 #include "problems/scene/body_shapes.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "geometry/shape/convex_hull.hpp"
@@ -26,19 +27,14 @@ ReadShape of_parts(std::span<const PlacedShape> parts) {
   if (parts.size() == 1 && parts[0].pose.position.isZero(0.0) &&
       parts[0].pose.rotation.isApprox(Quat::Identity()))
     return of_one(to_principal_frame(*parts[0].shape));
-  CompoundShape compound = make_compound(parts);
-  return {.hull = std::move(compound.hull),
-          .parts = std::move(compound.parts),
-          .volume = compound.volume,
-          .inertia = compound.inertia,
-          .pose = compound.pose,
-          .mesh_key = ""};
+  return {make_compound(parts), false, ""};
 }
 
 /// The name of a mesh file, made absolute in the resolved scene too.
 std::string read_mesh_name(TomlTable& table, const fs::path& folder) {
   std::string file;
   table.read("file", &file, {}, required);
+  if (file.empty()) table.fail("file", "is empty, expected the path of a mesh");
   const std::string path = mesh_path(folder, file);
   table.replace_resolved("file", toml::value<std::string>(path));
   return path;
@@ -162,7 +158,8 @@ std::string mesh_path(const fs::path& scene_folder, const std::string& name) {
 }
 
 void check_direction(const TomlTable& table, const char* key, const Vec3& v) {
-  if (v.norm() == 0.0) table.fail(key, "has no direction, expected a vector that is not zero");
+  if (v.norm() > 0.0 && std::isfinite(v.norm())) return;
+  table.fail(key, "has no direction, expected a vector that is not zero and has a finite length");
 }
 
 }  // namespace ballast

@@ -13,14 +13,9 @@
 namespace ballast {
 
 /// A shape in its principal frame, as bodies have it.
-struct ReadShape {
-  std::shared_ptr<const Polyhedron> hull;  ///< the shape itself, where there are no parts
-  std::vector<PlacedShape> parts;
-  double volume = 0.0;
-  Vec3 inertia = Vec3::Zero();  ///< principal moments per unit density [m^5]
-  Pose pose;                    ///< of the principal frame in the frame of the file
-  bool is_surface = false;      ///< a mesh's faces: for what does not move by itself
-  std::string mesh_key;         ///< of the contents of mesh files
+struct ReadShape : CompoundShape {  // where there are no parts the hull is the shape itself
+  bool is_surface = false;          ///< a mesh's faces: for what does not move by itself
+  std::string mesh_key;             ///< of the contents of mesh files
 };
 
 /// Reads `shape` and the keys of its kind, or the tables `part`. Mesh files are named from

@@ -260,7 +260,8 @@ PrincipalShape crowd_shape(const CrowdSpec& crowd, double radius, std::uint64_t 
   return to_principal_frame(make_box(2.0 * radius / crowd.aspect.norm() * crowd.aspect));
 }
 
-std::shared_ptr<const BodySpec> crowd_model(const CrowdSpec& crowd, double radius, long k) {
+std::shared_ptr<const BodySpec> crowd_model(const TomlTable& table, const CrowdSpec& crowd,
+                                            double radius, long k) try {
   PrincipalShape solid =
       crowd_shape(crowd, radius, crowd.seed * 1'000'003 + static_cast<std::uint64_t>(k));
   BodySpec body;
@@ -270,13 +271,16 @@ std::shared_ptr<const BodySpec> crowd_model(const CrowdSpec& crowd, double radiu
   body.velocity = crowd.velocity;
   body.material = crowd.material;
   return std::make_shared<const BodySpec>(std::move(body));
+} catch (const InvalidPolyhedron& error) {  // a box a million times thinner than wide, say
+  table.fail("shape", error.what());
 }
 
 /// Each body in a cubic cell of its own, a little off its middle, layer upon layer from below.
 std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd) {
   constexpr double room = 1.1;  // of a cell, over the largest body's diameter
   const double cell = room * 2.0 * crowd.radius;
-  const Eigen::Array3d cells = ((crowd.to - crowd.from).array() / cell + 1e-9).floor();
+  const Eigen::Array3d cells =
+      ((crowd.to - crowd.from).array() / cell + 1e-9).floor().min(1.0 * most_bodies);
   const double fitting = cells.minCoeff() > 0.0 ? cells.prod() : 0.0;
   if (fitting < crowd.count)
     table.fail("count", "does not fit between from and to, where " +
@@ -290,7 +294,7 @@ std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd)
     const double radius = random.uniform(crowd.least_radius, crowd.radius);
     if (k < most_models) {
       const bool is_new = k == 0 || crowd.shape == "grain" || crowd.least_radius < crowd.radius;
-      models.push_back(is_new ? crowd_model(crowd, radius, k) : models[0]);
+      models.push_back(is_new ? crowd_model(table, crowd, radius, k) : models[0]);
     }
     const auto& model = models[static_cast<size_t>(k % most_models)];
     BodySpec& body = bodies.emplace_back(*model);

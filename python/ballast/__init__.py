@@ -16,7 +16,7 @@ import functools
 import os
 import pathlib
 import sys
-from typing import Any, Callable, Optional, Sequence, Union
+from typing import Any, Callable, Optional, Sequence
 
 try:
     from . import _ballast
@@ -26,7 +26,6 @@ except ImportError as error:
                       f"and this is Python {sys.version.split()[0]}, {sys.executable}") from error
 
 import numpy as np
-import scipy.sparse as sparse
 
 from ._ballast import (Error, InvalidProblem, MissingSolver, Scene as _Scene, UnknownSolver,
                        UnsupportedProblem, scenes, solvers)

@@ -228,7 +228,7 @@ class GaussSeidel final : public Solver {
     }
     if (!is_stored) sweep_->store(problem, r);  // what moves nothing is dropped
     Solved solved = iteration.finish(std::move(is_best ? best : r));
-    if (returns_best_ && !is_best && solved.reason != StopReason::reached_tolerance)
+    if (std::isfinite(least) && !is_best && solved.reason != StopReason::reached_tolerance)
       go_back(problem, best, solved);
     return solved;
   }

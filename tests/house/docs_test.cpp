@@ -33,7 +33,7 @@ std::vector<Page> pages() {
 }
 
 /// `ballast bench all` writes it, and names the commit that it measured.
-constexpr const char* results_page = "docs/results.md";
+constexpr const char *results_page = "docs/results.md", *checks_page = "docs/house/checks.md";
 
 /// Numbers and commands that a program put in widen its lines.
 bool is_generated(const Page& page) {
@@ -145,7 +145,7 @@ TEST_CASE("the docs' prose is not too wide, and no commit explains anything") {
         INFO(line);
         CHECK(columns(line) <= widest_prose);
       }
-    if (page.path != results_page) CHECK(commits(page.text).empty());
+    if (page.path != results_page && page.path != checks_page) CHECK(commits(page.text).empty());
   }
 }
 

@@ -23,7 +23,7 @@ TEST_CASE("HDF5 prints nothing of its own") {
   const fs::path path = folder.path() / "a.h5";
   Hdf5Writer(path, Hdf5Storage::plain).commit();
   const CapturedErrors printed;
-  const std::string first = complaint([&] { Hdf5Reader(path).read_doubles("x"); }),
+  const std::string first = complaint([&] { Hdf5Reader(path).read<double>("x"); }),
                     second = complaint([&] { Hdf5Reader(folder.path() / "absent.h5"); });
   const long bytes = printed.bytes();
   CHECK(bytes == 0);
@@ -86,9 +86,9 @@ TEST_CASE("what a file does not have is named") {
   CHECK_FALSE(file.has("group/y"));
   CHECK_FALSE(file.has("h/x"));
   const auto said = [&](auto work) { return complaint_about(path, work); };
-  CHECK(said([&] { file.read_doubles("h/x"); }) == "h/x: no such dataset");
-  CHECK(said([&] { file.read_doubles("group"); }) == "group: not a dataset");
-  CHECK(said([&] { file.read_doubles("group/texts"); }) == "group/texts: does not hold numbers");
+  CHECK(said([&] { file.read<double>("h/x"); }) == "h/x: no such dataset");
+  CHECK(said([&] { file.read<double>("group"); }) == "group: not a dataset");
+  CHECK(said([&] { file.read<double>("group/texts"); }) == "group/texts: does not hold numbers");
   CHECK(said([&] { file.read_int("group/ints"); }) == "group/ints has 2 entries, must have 1");
   CHECK(file.read_int("group/one") == 5);
   CHECK(said([&] { file.read_text("group/ints"); }) == "group/ints: is no text of fixed length");
@@ -96,6 +96,24 @@ TEST_CASE("what a file does not have is named") {
   CHECK(said([&] { file.read_rows("group/ints", 2); }) ==
         "HDF5 cannot read rows 2 to 3 of group/ints");
   CHECK(said([&] { file.read_texts("group/ints"); }) == "HDF5 cannot read group/ints");
+}
+
+TEST_CASE("a text of any length that was never written is empty") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.h5";
+  {
+    const Hdf5Id file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose),
+        type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, H5T_VARIABLE);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    const hsize_t two = 2;
+    const Hdf5Id space(H5Screate_simple(1, &two, nullptr), H5Sclose),
+        plan(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_alloc_time(plan, H5D_ALLOC_TIME_EARLY);
+    const Hdf5Id texts(H5Dcreate2(file, "x", type, space, H5P_DEFAULT, plan, H5P_DEFAULT),
+                       H5Dclose);
+  }
+  CHECK(Hdf5Reader(path).read_texts("x") == std::vector<std::string>{"", ""});
 }
 
 TEST_CASE("a bit that flips in compressed numbers is noticed") {
@@ -112,8 +130,8 @@ TEST_CASE("a bit that flips in compressed numbers is noticed") {
   bytes[middle] = static_cast<char>(bytes[middle] ^ 1);
   write_whole_file(path, bytes);
   const Hdf5Reader file(path);
-  CHECK(file.read_doubles("few") == std::vector<double>{1.0, 2.0});
-  CHECK(complaint_about(path, [&] { file.read_doubles("many"); }) ==
+  CHECK(file.read<double>("few") == std::vector<double>{1.0, 2.0});
+  CHECK(complaint_about(path, [&] { file.read<double>("many"); }) ==
         "many: cannot be read (damaged or truncated)");
 }
 
@@ -125,18 +143,19 @@ TEST_CASE("what is written is read back, plain or compressed") {
     const Hdf5Reader file(path);
     CHECK(hdf5_attribute(path, "/", "format") == "test 1");
     CHECK(hdf5_attribute(path, "group", "unit") == "m/s\u00b2");
-    CHECK(file.read_doubles("group/doubles") == std::vector<double>{1.5, -0.0, 1e-300});
-    CHECK(std::signbit(file.read_doubles("group/doubles")[1]));
-    CHECK(file.read_ints("group/ints") == std::vector<int>{-7, 8});
-    CHECK(file.read_doubles("group/long") == std::vector<double>{0x1p40, -1.0});
-    CHECK(file.read_keys("group/keys") == std::vector<std::uint64_t>{~std::uint64_t{0}, 3});
-    CHECK(file.read_doubles("group/empty").empty());
+    CHECK(file.read<double>("group/doubles") == std::vector<double>{1.5, -0.0, 1e-300});
+    CHECK(std::signbit(file.read<double>("group/doubles")[1]));
+    CHECK(file.read<int>("group/ints") == std::vector<int>{-7, 8});
+    CHECK(file.read<double>("group/long") == std::vector<double>{0x1p40, -1.0});
+    CHECK(file.read<std::uint64_t>("group/keys") ==
+          std::vector<std::uint64_t>{~std::uint64_t{0}, 3});
+    CHECK(file.read<double>("group/empty").empty());
     CHECK(file.read_texts("group/texts") == std::vector<std::string>{"", "one", "two words"});
     CHECK(file.read_text("/group/text") == "a text");
     CHECK(file.shape("group/slices") == Hdf5Shape{sample_rows, 2, 3});
     CHECK(file.read_rows("group/slices", 4321) ==
           std::vector<double>{4321, 4322, 4323, -4321, -4322, -4323});
-    const std::vector<double> all = file.read_doubles("group/slices");
+    const std::vector<double> all = file.read<double>("group/slices");
     REQUIRE(all.size() == 6 * sample_rows);
     CHECK(all[6 * 17 + 1] == 18.0);
   }
@@ -184,11 +203,11 @@ TEST_CASE("rows come one by one, many at once, and as whole numbers") {
   }
   writer.commit();
   const Hdf5Reader file(path);
-  CHECK(file.read_doubles("pairs") == values);
+  CHECK(file.read<double>("pairs") == values);
   CHECK(file.read_rows("pairs", 776, 2) ==
         std::vector<double>(values.begin() + 1552, values.begin() + 1556));
-  CHECK(file.read_keys("keys")[0] == std::uint64_t{1} << 40);
-  CHECK(file.read_ints("counts") == std::vector<int>{0, -7, 8});
+  CHECK(file.read<std::uint64_t>("keys")[0] == std::uint64_t{1} << 40);
+  CHECK(file.read<int>("counts") == std::vector<int>{0, -7, 8});
 }
 
 TEST_CASE("what cannot be written is an error that names the file") {

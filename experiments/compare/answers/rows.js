@@ -3,7 +3,7 @@
 const counted = ["tolerance", "repeat", "max_seconds", "error", "seconds", "iterations",
                  "natural_map_rms", "contacts", "rank_deficiency", "mass_ratio", "velocity_scale",
                  "prepare_seconds", "peak_memory_MB"];
-const column_names = page_data.columns.map(([name]) => name);
+const column_names = page_data.columns;
 
 const rows = page_data.rows.map((cells) => {
   const row = Object.fromEntries(column_names.map((name, k) => [name, cells[k]]));

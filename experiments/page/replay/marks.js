@@ -121,14 +121,12 @@ class Marks {
   addPoints(time, rods, { picked }, cut) {
     const { begin, end } = this.data.contactsAt(time), { a, b, mobilised } = this.data.contact;
     const size = this.meanReach;
-    this.shownPoints = 0;
     for (let c = begin; c < end; ++c) {
       if (picked >= 0 && a[c] !== picked && b[c] !== picked) continue;
       const place = this.data.contactPlace(c);
       if (cut && dot(cut, place) > cut[3]) continue;
       const colour = colourAt(markRamps.water, 0.15 + 0.85 * mobilised[c] / 255);
       addRod(rods, place, 0.09 * size, place, 0.09 * size, colour);
-      ++this.shownPoints;
     }
   }
 }

@@ -58,7 +58,6 @@ TEST_CASE("a small page as HTML, to the letter") {
 <details><summary>All of it</summary>
 <pre>x = 1</pre></details>
 </section>
-<footer>The end.</footer>
 </main>
 </body>
 </html>

@@ -57,8 +57,6 @@ x = 1
 ```
 
 </details>
-
-The end.
 )");
 }
 

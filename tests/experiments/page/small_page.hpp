@@ -32,7 +32,6 @@ inline Page small_page() {
       {"rest",
        "The rest",
        {picture, List{{"one", "two"}}, Listing{"a <b>\n```\n"}, Listing{"x = 1", "All of it"}}});
-  page.end = "The end.";
   return page;
 }
 

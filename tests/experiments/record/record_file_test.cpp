@@ -71,19 +71,19 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
   }
   CHECK(file.shape("poses/position") == Hdf5Shape{3, 9, 3});
   CHECK(file.shape("poses/rotation") == Hdf5Shape{3, 9, 4});
-  CHECK(file.read_doubles("poses/step") == std::vector<double>{0, 5, 10});
+  CHECK(file.read<double>("poses/step") == std::vector<double>{0, 5, 10});
   CHECK(hdf5_attribute(path, "poses/spin", "unit") == "rad/s");
   const auto names = file.read_texts("bodies/name");
   CHECK((names.size() == 9 && names[1] == "grain 1" && names[6] == "x_max"));
-  CHECK(file.read_doubles("bodies/shape") == std::vector<double>{0, 1, 1, -1, -1, -1, -1, -1, -1});
-  CHECK(file.read_doubles("bodies/mass")[2] == system.bodies[2].mass);
-  CHECK(file.read_doubles("bodies/volume")[0] == system.bodies[0].volume);
-  CHECK(file.read_doubles("bodies/inertia")[4] == system.bodies[1].inertia.y());
-  CHECK(file.read_doubles("bodies/wall_normal")[3 * 6] == -1.0);
-  const auto vertices = file.read_doubles("shapes/vertices"),
-             triangles = file.read_doubles("shapes/triangles");
-  const auto vertex_begin = file.read_doubles("shapes/vertex_begin"),
-             triangle_begin = file.read_doubles("shapes/triangle_begin");
+  CHECK(file.read<double>("bodies/shape") == std::vector<double>{0, 1, 1, -1, -1, -1, -1, -1, -1});
+  CHECK(file.read<double>("bodies/mass")[2] == system.bodies[2].mass);
+  CHECK(file.read<double>("bodies/volume")[0] == system.bodies[0].volume);
+  CHECK(file.read<double>("bodies/inertia")[4] == system.bodies[1].inertia.y());
+  CHECK(file.read<double>("bodies/wall_normal")[3 * 6] == -1.0);
+  const auto vertices = file.read<double>("shapes/vertices"),
+             triangles = file.read<double>("shapes/triangles");
+  const auto vertex_begin = file.read<double>("shapes/vertex_begin"),
+             triangle_begin = file.read<double>("shapes/triangle_begin");
   REQUIRE((vertex_begin.size() == 3 && triangle_begin.size() == 3));
   REQUIRE(file.shape("shapes/vertices") == Hdf5Shape{static_cast<size_t>(vertex_begin[2]), 3});
   REQUIRE(file.shape("shapes/triangles") == Hdf5Shape{static_cast<size_t>(triangle_begin[2]), 3});
@@ -182,8 +182,8 @@ TEST_CASE("quantities of rows become datasets, more rows than are gathered at on
   CHECK(file.shape("all/square") == Hdf5Shape{rows, 2, 2});
   CHECK(hdf5_attribute(record, "all/square", "unit") == "m");
   CHECK(hdf5_attribute(record, "all/last", "description") == "one");
-  const std::vector<double> square = file.read_doubles("all/square");
-  const std::vector<int> last = file.read_ints("all/last");
+  const std::vector<double> square = file.read<double>("all/square");
+  const std::vector<int> last = file.read<int>("all/last");
   bool fits = true;
   for (size_t k = 0; k < rows; ++k) {
     const double first = 10.0 * static_cast<double>(k);
@@ -199,7 +199,7 @@ TEST_CASE("quantities of rows become datasets, more rows than are gathered at on
     Hdf5Writer other(record, Hdf5Storage::compressed);
     add_rows(other, long_rows, {"rows", {{"all", {100000, 2}}}});
     other.commit();
-    const std::vector<double> all = Hdf5Reader(record).read_doubles("rows/all");
+    const std::vector<double> all = Hdf5Reader(record).read<double>("rows/all");
     REQUIRE(all.size() == static_cast<size_t>(count) * 200000);
     if (count > 0) CHECK(all.back() == 20.0 + 199999.0);
   }
@@ -239,14 +239,14 @@ TEST_CASE("record.h5 has the contacts and forces of every stored frame, where th
   const fs::path record = open.path() / "record.h5";
   const Hdf5Reader file(record);
   // steps 0 (none: before the first step), 5, 10, 15, 20, 25 have 0, 1, 2, 3, 0, 2 contacts
-  CHECK(file.read_ints("contacts/frame_begin") == std::vector<int>{0, 0, 1, 3, 6, 6, 8});
-  CHECK(file.read_ints("contacts/body_a") == std::vector<int>{0, 0, 1, 0, 1, 2, 0, 1});
-  CHECK(file.read_ints("contacts/body_b") == std::vector<int>{1, 1, 2, 1, 2, 3, 1, 2});
+  CHECK(file.read<int>("contacts/frame_begin") == std::vector<int>{0, 0, 1, 3, 6, 6, 8});
+  CHECK(file.read<int>("contacts/body_a") == std::vector<int>{0, 0, 1, 0, 1, 2, 0, 1});
+  CHECK(file.read<int>("contacts/body_b") == std::vector<int>{1, 1, 2, 1, 2, 3, 1, 2});
   const double x = 15 + 0.1 * 2;
-  CHECK(same_bits(file.read_doubles("contacts/force")[17], x * sample_step / sample_step));
-  CHECK(same_bits(file.read_doubles("contacts/position")[15], x));
-  CHECK(same_bits(file.read_doubles("contacts/gap")[5], -1e-6 * x));
-  CHECK(file.read_doubles("contacts/normal")[17] == 1.0);
+  CHECK(same_bits(file.read<double>("contacts/force")[17], x * sample_step / sample_step));
+  CHECK(same_bits(file.read<double>("contacts/position")[15], x));
+  CHECK(same_bits(file.read<double>("contacts/gap")[5], -1e-6 * x));
+  CHECK(file.read<double>("contacts/normal")[17] == 1.0);
   CHECK(hdf5_attribute(record, "contacts/force", "unit") == "N");
   CHECK_FALSE(hdf5_attribute(record, "contacts/gap", "description").empty());
 

@@ -68,7 +68,6 @@ TEST_CASE("packed poses come back: places to a 2^16th of the box, rotations to 1
   REQUIRE(places.size() == 7 * 9);
   for (size_t f = 0; f < 7; ++f) {
     CHECK(head["times"][f] == view.frames[f].time);
-    CHECK(head["steps"][f] == view.frames[f].step);
     for (size_t g = 0; g < 3; ++g) {
       const Pose& pose = view.frames[f].pose[g];
       for (size_t k = 0; k < 3; ++k) {

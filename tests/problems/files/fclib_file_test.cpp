@@ -21,7 +21,7 @@ TEST_CASE("each broken local file is refused with one line that says where") {
   };
   const auto entry = [](const char* path, size_t k, int value) {
     return [=](const fs::path& f) {
-      std::vector<int> values = Hdf5Reader(f).read_ints(path);
+      std::vector<int> values = Hdf5Reader(f).read<int>(path);
       values[k] = value;
       replace(f, path, values);
     };
@@ -92,9 +92,9 @@ TEST_CASE("the entries of a row may stand in any order") {
   const fs::path file = folder / "turned.hdf5";
   const FrictionProblem problem = only_delassus(small().problem);
   write_problem(file, problem);
-  std::vector<int> i = Hdf5Reader(file).read_ints("/fclib_local/W/i");
-  std::vector<double> x = Hdf5Reader(file).read_doubles("/fclib_local/W/x");
-  REQUIRE(Hdf5Reader(file).read_ints("/fclib_local/W/p")[1] >= 2);
+  std::vector<int> i = Hdf5Reader(file).read<int>("/fclib_local/W/i");
+  std::vector<double> x = Hdf5Reader(file).read<double>("/fclib_local/W/x");
+  REQUIRE(Hdf5Reader(file).read<int>("/fclib_local/W/p")[1] >= 2);
   std::swap(i[0], i[1]);
   std::swap(x[0], x[1]);
   replace(file, "/fclib_local/W/i", i);
@@ -110,7 +110,7 @@ TEST_CASE("each broken global file is refused") {
   const auto broken = [&](const std::string& name, auto change) {
     write_problem(file, small().problem);
     const std::string path = "/fclib_global/" + name;
-    std::vector<double> values = Hdf5Reader(file).read_doubles(path);
+    std::vector<double> values = Hdf5Reader(file).read<double>(path);
     change(values);
     replace(file, path.c_str(), values);
     return complaint(file);
@@ -145,7 +145,7 @@ TEST_CASE("an answer comes back with its bits, and its file holds what FCLIB rea
   CHECK(stored.shape("/solution/u")[0] == 60);
   CHECK(stored.shape("/solution/v")[0] ==
         static_cast<unsigned long long>(known.problem.dynamics.dof_count()));
-  CHECK(stored.read_doubles("/ballast_answer/iterations")[0] == 7.0);
+  CHECK(stored.read<double>("/ballast_answer/iterations")[0] == 7.0);
   CHECK(stored.read_text("/ballast_answer/solver") == "pgs");
 }
 

@@ -48,6 +48,7 @@ TEST_CASE(
        {"solver.warm_strat = true", "did you mean \"warm_start\""}},
       // walls
       {"[[wall]]\nnormal = [0, 0, 0]\n", {"wall.0.normal = [0, 0, 0]", "not zero"}},
+      {"[[wall]]\nnormal = [0, 0, 1e200]\n", {"wall.0.normal = [0, 0, 1e+200]", "finite length"}},
       {driven + "mass = 1\n", {"wall.0.load.f_max is missing", "[N]"}},
       {driven + "mass = 1\nload = { f_min = 2, f_max = 1, frequency = 5 }\n",
        {"wall.0.load.f_min = 2", "f_max"}},

@@ -30,6 +30,14 @@ TEST_CASE("a NaN that slipped past validation is a numerical failure, not an ans
   CHECK(from_rest(*make_gauss_seidel(), known.problem, {}).reason == StopReason::numerical_failure);
 }
 
+TEST_CASE("a start whose error is not finite comes back as it was, not as memory was") {
+  const KnownSolution known = make_known_solution({});
+  const auto solver = make_nesterov_pgs();
+  solver->prepare(known.problem);
+  const Impulses start = Impulses::Constant(known.problem.row_count(), 1e300);
+  CHECK(solver->solve(known.problem, start, {.max_iterations = 0}).impulses == start);
+}
+
 namespace {
 
 FrictionProblem slender_pile(int contacts) {
