@@ -76,6 +76,11 @@ void print_failure(std::ostream& err, const std::string& what) {
 /// "--output" of "--output DIR".
 std::string option_name(const Word& word) { return word.name.substr(0, word.name.find(' ')); }
 
+/// "" and, of "--output= --quiet", what CLI11 takes instead are no names.
+std::string names_something(const std::string& text) {
+  return text.empty() || text.starts_with("--") ? "'" + text + "': expected a name" : "";
+}
+
 /// Tells CLI11 of one word.
 void add_word(CLI::App& app, Word& word) {
   const std::string name = option_name(word);
@@ -94,6 +99,9 @@ void add_word(CLI::App& app, Word& word) {
         add(*kept);
     };
     std::visit(add_kept, word.value);
+    if (std::holds_alternative<std::string*>(word.value) ||
+        std::holds_alternative<std::filesystem::path*>(word.value))
+      option->check(names_something, "");
     // what is empty or without a limit says nothing
     for (const char* nothing : {"\"\"", "[]", "1e+30", "nan"})
       if (option->get_default_str() == nothing) option->default_str("");
@@ -150,18 +158,19 @@ std::string complaint(const CLI::App& program, int argc, const char* const* argv
     if (word.starts_with("--") && word.size() > 2) {
       for (const CLI::Option* option : at->get_options()) names.insert(option->get_name());
       const std::string given = word.substr(0, word.find('='));
-      if (!names.contains(given)) unknown = ": no option " + given + did_you_mean(given, names);
+      if (!names.contains(given)) unknown = "no option " + given + did_you_mean(given, names);
     } else {
       for (const CLI::App* below : at->get_subcommands({})) names.insert(below->get_name());
       if (names.contains(word)) {
         at = at->get_subcommand(word);
         path += ' ' + word;
       } else if (at->get_require_subcommand_min() > 0) {
-        unknown = ": no command '" + word + "'" + did_you_mean(word, names);
+        unknown = "no command '" + word + "'" + did_you_mean(word, names);
       }
     }
   }
-  return (unknown.empty() ? found : at->get_name() + unknown) + " (" + path + " --help)";
+  if (at != &program && !unknown.empty()) unknown.insert(0, at->get_name() + ": ");
+  return (unknown.empty() ? found : unknown) + " (" + path + " --help)";
 }
 
 }  // namespace

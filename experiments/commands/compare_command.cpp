@@ -198,7 +198,7 @@ bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
                          row.tolerance, name_of(row.start), name_of(row.verdict), row.seconds(),
                          row.error, was_there ? "  (was there)" : "",
                          row.verdict == Verdict::denied ? "  JUDGE DISAGREES" : "")
-              << (std::isnan(row.error) && !row.note.empty() ? "  " + row.note : "");
+              << (row.note.empty() ? "" : "  " + row.note);
   std::cout << std::endl;
   return !InterruptGuard::requested();
 }
@@ -240,7 +240,8 @@ ExitCode compare_live(CompareRequest& options) {
 
 ExitCode compare(CompareRequest& options) {
   if (options.cases.empty() == options.live.scene.empty())
-    throw UsageError("compare: expected cases, or --live SCENE");
+    throw UsageError(options.cases.empty() ? "compare: expected cases, or --live SCENE"
+                                           : "compare: --live SCENE: not with cases");
   const std::filesystem::path& output = options.comparison.folder;
   require_own_folder(output, {"rows", "trajectories", "start", "exact"});
   if (!options.external.empty() && !options.live.scene.empty())
@@ -322,13 +323,16 @@ Command compare_command() {
        {"--quiet", &options->is_quiet, "Says nothing but failures"},
        {"--live SCENE", &live.scene,
         "Instead of cases: a scene's closed loop from one start under each backend and tolerance"},
-       {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value"},
+       {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value", needs("--live")},
        {"--from", &live.start,
-        "Simulated time up to which the scene's own solver goes, once for all [s]", at_least(0)},
-       {"--duration", &live.duration, "Simulated from there under each backend [s]", above(0)},
-       {"--trajectory-seconds", &live.trajectory_seconds, "Wall clock of one trajectory", above(0)},
+        "Simulated time up to which the scene's own solver goes, once for all [s]", at_least(0),
+        needs("--live")},
+       {"--duration", &live.duration, "Simulated from there under each backend [s]", above(0),
+        needs("--live")},
+       {"--trajectory-seconds", &live.trajectory_seconds, "Wall clock of one trajectory", above(0),
+        needs("--live")},
        {"--packing-cache DIR", &live.packing_cache,
-        "Where deposited packings are kept (<output>/packings)"}},
+        "Where deposited packings are kept (<output>/packings)", needs("--live")}},
       [options] { return compare(*options); },
       {compare_diff_command(),
        merging_command(

@@ -31,7 +31,7 @@ struct ExportOptions {
   fs::path source, output;
   double time = not_known;  ///< [s]
   bool all = false;
-  std::optional<std::pair<size_t, size_t>> frames;  ///< of pictures: numbers of the first and last
+  std::optional<std::pair<size_t, size_t>> frames;  ///< numbers of the first and last
   StillOptions still;
 };
 
@@ -51,10 +51,40 @@ ViewData run_view(const fs::path& folder) {
   return std::move(*view);
 }
 
+bool is_picture(const ExportOptions& options) { return options.output.extension() == ".png"; }
+
+/// Where chains are asked for there are forces to draw.
+ViewData view_to_draw(const ExportOptions& options) {
+  ViewData view = run_view(options.source);
+  if (options.still.with_chains && !view.contacts)
+    throw Error(options.source.string() +
+                ": no forces are stored there (--set record.forces=true)");
+  return view;
+}
+
+/// Numbers of the first and last frame that are asked for.
+std::pair<size_t, size_t> chosen_frames(const ExportOptions& options, const ViewData& view) {
+  const size_t count = view.frames.size();
+  const size_t one =
+      std::isnan(options.time) ? count - 1 : nearest_frame(view.frames, options.time);
+  const auto chosen = options.frames.value_or(std::pair(one, one));
+  if (chosen.second >= count)
+    throw Error(options.source.string() + ": has frames 0 to " + std::to_string(count - 1) +
+                printed(", not --frames %zu:%zu", chosen.first, chosen.second));
+  return chosen;
+}
+
 /// Every stored frame as a file of its own.
 ExitCode export_all(const ExportOptions& options) {
-  const ViewData view = run_view(options.source);
-  export_series(view.system, view.frames, view.contacts, options.output);
+  const ViewData view = view_to_draw(options);
+  if (is_picture(options)) {
+    if (options.output.has_parent_path()) create_folder(options.output.parent_path());
+    for (size_t k = 0; k < view.frames.size(); ++k)
+      write_whole_file(series_file(options.output, view.frames[k].step),
+                       still_png(view, {k}, options.still));
+  } else {
+    export_series(view.system, view.frames, view.contacts, options.output);
+  }
   const MotionState &first = view.frames.front(), &last = view.frames.back();
   std::cout << series_file(options.output, first.step).string() << " to "
             << series_file(options.output, last.step).filename().string() << ": "
@@ -65,17 +95,9 @@ ExitCode export_all(const ExportOptions& options) {
 
 /// Stored frames drawn without a display: one, or a picture that moves.
 ExitCode export_picture(const ExportOptions& options) {
-  const ViewData view = run_view(options.source);
-  if (options.still.with_chains && !view.contacts)
-    throw Error(options.source.string() +
-                ": no forces are stored there (--set record.forces=true)");
+  const ViewData view = view_to_draw(options);
   const std::vector<MotionState>& frames = view.frames;
-  const size_t one =
-      std::isnan(options.time) ? frames.size() - 1 : nearest_frame(frames, options.time);
-  const auto [first, last] = options.frames.value_or(std::pair(one, one));
-  if (last >= frames.size())
-    throw Error(options.source.string() + ": has frames 0 to " + std::to_string(frames.size() - 1) +
-                printed(", not --frames %zu:%zu", first, last));
+  const auto [first, last] = chosen_frames(options, view);
   std::vector<size_t> chosen;
   for (size_t frame = first; frame <= last; ++frame) chosen.push_back(frame);
   write_whole_file(options.output, still_png(view, chosen, options.still));
@@ -84,24 +106,35 @@ ExitCode export_picture(const ExportOptions& options) {
   return ExitCode::ok;
 }
 
+/// The run's folder that a checkpoint, or one of its states, is in.
+fs::path run_of(const fs::path& checkpoint) {
+  const fs::path folder = fs::absolute(checkpoint).lexically_normal().parent_path();
+  return folder.filename() == "states" ? folder.parent_path() : folder;
+}
+
 ExitCode export_run(const ExportOptions& options) {
-  if (options.output.extension() == ".png") return export_picture(options);
+  const std::string output = options.output.string();
+  if (!is_picture(options) && options.still != StillOptions{})
+    throw UsageError(output + ": --view, --chains, --width and --height go with .png alone");
+  if (!is_picture(options) && options.frames && options.frames->first < options.frames->second)
+    throw UsageError(output + ": --frames FIRST:LAST goes with .png alone; --all: every frame");
   if (!is_there(options.source))
     throw Error(options.source.string() + ": no such run folder or checkpoint");
   const bool from_folder = is_folder(options.source);
-  const bool has_time = !std::isnan(options.time);
-  if (!from_folder && (has_time || options.all))
-    throw Error(options.source.string() + ": a checkpoint is one state: give the run's folder");
+  const bool is_frame = options.frames || !std::isnan(options.time);
+  if (!from_folder && (is_frame || options.all || is_picture(options)))
+    throw Error(options.source.string() +
+                ": a checkpoint is one state: for frames and pictures give the run's folder");
   if (options.all) return export_all(options);
+  if (is_picture(options)) return export_picture(options);
   MechanicalSystem system;
   MotionState state;
-  if (has_time) {
+  if (is_frame) {
     ViewData view = run_view(options.source);
-    state = view.frames[nearest_frame(view.frames, options.time)];
+    state = view.frames[chosen_frames(options, view).first];
     system = std::move(view.system);
   } else {
-    system = recorded_system(
-        from_folder ? options.source : fs::absolute(options.source).parent_path(), state);
+    system = recorded_system(from_folder ? options.source : run_of(options.source), state);
     if (!from_folder) state = read_checkpoint(options.source).state;
   }
   if (state.pose.size() != system.bodies.size())
@@ -127,10 +160,12 @@ ViewData view_of(const ViewOptions& options) {
   if (RunFolder(path).has_run()) return run_view(path);
   if (suffix == ".obj" || suffix == ".stl") return view_of_mesh(path);
   if (is_problem_file(path)) {
-    if (is_file(path) && !is_captured(path))
+    if (!is_captured(path)) {
+      read_problem(path);  // what is no problem at all is said by this
       throw Error(path.string() +
                   ": does not say where its contacts are, so there is nothing to show in 3D; "
                   "problems of ballast run --capture do");
+    }
     for (const std::string& name : options.question.backends) find_solver(name);
     return view_of_problem(path, options.question);
   }
@@ -140,6 +175,8 @@ ViewData view_of(const ViewOptions& options) {
 
 ExitCode write_view(const ViewOptions& options) {
   fs::path page = options.output;
+  if (is_file(page) && fs::canonical(page).extension() != ".html")
+    throw Error(page.string() + ": is no page (.html): it would be written over");
   if (page.empty()) {
     // Beside what is there already: in a run's folder, beside a problem; else here.
     const fs::path path = options.thing, name = path.stem().string() + ".view.html";
@@ -160,12 +197,13 @@ Command export_command() {
   return {
       "export",
       "Writes one state of a run, or all, for other programs",
-      {{"source", &options->source, "A run's folder, or a checkpoint in it", required},
+      {{"source", &options->source, "A run's folder, or a checkpoint or state in it", required},
        {"--output FILE", &options->output,
         "The file to write: .obj, grains as meshes; .vtp, for ParaView; .png, a picture", required},
        {"--time S", &options->time, "The stored frame nearest to this time [s]", at_least(0)},
        {"--frames N", into(options->frames, parsed_frames),
-        ".png: number of the stored frame (the last); FIRST:LAST: a picture that moves"},
+        "Number of the stored frame (the last); .png: FIRST:LAST is a picture that moves",
+        excludes("--time")},
        {"--view FROM",
         Parsed{"home", [options](const std::string& word) { set_view(options->still, word); }},
         ".png: home, x, -x, y, -y, z, or YAW,PITCH in degrees"},
@@ -176,7 +214,7 @@ Command export_command() {
        {"--all", &options->all,
         "Every stored frame: FILE with _<step> before its suffix; with .vtp also the .pvd that "
         "ParaView opens as one series, and the contacts of a run with record.forces",
-        excludes("--time")}},
+        excludes("--time"), excludes("--frames")}},
       [options] { return export_run(*options); }};
 }
 

@@ -62,6 +62,8 @@ void show_results(const RunEnd& end, const RunRequest& request, bool has_grains)
             << "  record.h5     the same and the poses (HDF5)\n";
   if (is_there(end.folder / "capture"))
     std::cout << "  capture/      friction problems of steps, for ballast compare\n";
+  else if (request.run.capture.to > 0)
+    std::cout << "  no capture/   the run has no step that --capture names\n";
   std::cout << "  manifest.json machine, commit, parameters, summary\n\nwhat next\n"
             << next_commands(has_grains) << std::flush;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 #include "experiments/external/external_program.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/hdf5_file.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
@@ -41,8 +43,8 @@ struct SolvedFile {
   int contacts = 0, rows = 0;
   double tolerance = 0.0;  ///< [m/s]
   SolverRun run = {};
-  /// Why nothing was solved: "unreadable", "unsupported"; of a program "out_of_time", "crashed".
-  /// Empty: it was.
+  /// Why nothing was solved: "unreadable", "no_start", "unsupported"; of a program "out_of_time",
+  /// "crashed"; or that the answer is "not_kept". Empty: it was.
   std::string refused = {};
   std::string words = {};  ///< what came of it (explained()), or what is wrong
 };
@@ -81,6 +83,20 @@ std::filesystem::path answer_of(const std::string& file, const std::filesystem::
   return where / std::filesystem::path(file).filename().replace_extension(".hdf5");
 }
 
+/// Before anything is solved: every answer has a file of its own, where nothing is but an answer.
+void require_place(const SolveOptions& options) {
+  std::map<std::filesystem::path, std::string> answered;
+  for (const std::string& file : options.files) {
+    const std::filesystem::path target = answer_of(file, options.output);
+    const auto [before, is_new] = answered.try_emplace(target, file);
+    if (!is_new)
+      throw Error(target.string() + ": holds the answer to " + before->second + " already");
+    if (is_file(target) && !Hdf5Reader(target).has("/ballast_answer"))
+      throw Error(target.string() + ": is no answer of solve: it would be written over");
+    if (target.has_parent_path()) create_folder(target.parent_path());
+  }
+}
+
 void keep_answer(const FrictionProblem& problem, const SolvedFile& solved,
                  const SolveOptions& options) {
   StoredSolution stored{
@@ -92,15 +108,13 @@ void keep_answer(const FrictionProblem& problem, const SolvedFile& solved,
                 {"verdict", name_of(solved.run.verdict)}}};
   for (const ShownMeasure& m : measures_of(solved.run))
     stored.numbers.emplace_back(m.name, m.value);
-  const std::filesystem::path file = answer_of(solved.file, options.output);
-  std::error_code error;
-  if (std::filesystem::equivalent(file, solved.file, error))
-    throw Error(file.string() + ": would be written over the problem");
-  if (file.has_parent_path()) create_folder(file.parent_path());
-  write_solution(file, problem, stored);
+  write_solution(answer_of(solved.file, options.output), problem, stored);
 }
 
-SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner) {
+/// `fault`: what it is called when this throws.
+SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner,
+                      const char*& fault) {
+  fault = "unreadable";
   const FrictionProblem problem = read_problem(file);
   SolvedFile solved{.file = file,
                     .contacts = problem.contact_count(),
@@ -113,11 +127,13 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
     solved.tolerance *= scale;
   }
   const auto solver = options.solver.make();  // a new one for each: nothing is carried over
+  fault = "no_start";
   const Impulses start =
       options.start.empty() ? Impulses() : read_solution(answer_of(file, options.start), problem);
   solved.run = runner.run(*solver, problem, start,
                           {solved.tolerance, options.max_iterations, options.max_seconds, false});
   solved.words = explained(problem, solved.run, solved.tolerance);
+  fault = "not_kept";
   if (!options.output.empty()) keep_answer(problem, solved, options);
   return solved;
 }
@@ -129,14 +145,15 @@ SolvedFile solved_or_refused(const std::string& file, const SolveOptions& option
     if (why.find(file) == std::string::npos) why = file + ": " + why;
     return SolvedFile{.file = file, .refused = how, .words = std::move(why)};
   };
+  const char* fault = nullptr;
   try {
-    return solve_file(file, options, runner);
+    return solve_file(file, options, runner, fault);
   } catch (const UnsupportedProblem& error) {
     return refused("unsupported", error.what());
   } catch (const LostProcess& error) {
     return refused(error.is_out_of_time ? "out_of_time" : "crashed", error.what());
   } catch (const std::exception& error) {
-    return refused("unreadable", error.what());
+    return refused(fault, error.what());
   }
 }
 
@@ -151,7 +168,8 @@ void print_row(const SolvedFile& s, int width) {
       printed("%-*s%9d%8d  %-18s%8d%13s", width, name.c_str(), s.contacts, s.rows,
               name_of(s.run.solved.reason), s.run.solved.iterations, name_of(s.run.verdict));
   for (const ShownMeasure& m : measures_of(s.run)) line += printed("%10.2e", m.value);
-  std::cout << line << printed("%8d", s.run.error.worst_contact) << std::endl;
+  std::cout << line << printed("%8d", s.run.error.worst_contact)
+            << (s.run.failure.empty() ? "" : "  " + s.run.failure) << std::endl;
 }
 
 nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options) {
@@ -216,6 +234,7 @@ ExitCode solve(const SolveOptions& options) {
     if (options.files.size() > 1 && answer_of("", where) == where && !where.empty())
       throw UsageError("solve: " + where.string() +
                        ": is one file; several problems need a folder for their answers");
+  if (!options.output.empty()) require_place(options);
   int width = 7;
   for (const std::string& file : options.files)
     width =

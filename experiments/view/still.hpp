@@ -13,6 +13,7 @@ struct StillOptions {
   double yaw = -52.0, pitch = 20.0;  ///< from where one looks [degrees]
   int width = 960, height = 640;     ///< [pixels]
   bool with_chains = false;          ///< force chains; bodies are glass then
+  bool operator==(const StillOptions&) const = default;
 };
 
 /// From the words of the command line: "home", "x", "-x", "y", "-y", "z", or "<yaw>,<pitch>" in

@@ -69,6 +69,8 @@ class Problem:
 
     def write(self, file: Path) -> None:
         """As FCLIB's HDF5: by its bodies where these are known, else W and q."""
+        if os.path.splitext(os.fspath(file))[1] not in (".hdf5", ".h5"):
+            raise ValueError(f"{file}: only .hdf5 and .h5 are written")
         self._core.write(os.fspath(file))
 
     @property

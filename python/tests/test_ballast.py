@@ -165,7 +165,10 @@ class Problems(unittest.TestCase):
         M, H, mu, v = chain(20)
         with tempfile.TemporaryDirectory() as folder:
             file, out = folder + "/p.hdf5", folder + "/r.hdf5"
-            ballast.Problem.from_bodies(M, H, mu, v_free=v).write(file)
+            problem = ballast.Problem.from_bodies(M, H, mu, v_free=v)
+            problem.write(file)
+            with self.assertRaisesRegex(ValueError, "only .hdf5 and .h5"):
+                problem.write(folder + "/p.dat")
             for solver in ["pgs", "nncg", "newton_ac", "auto"]:
                 with self.subTest(solver):
                     run("solve", file, "--solver", solver, "--tolerance", "1e-8", "--output", out)

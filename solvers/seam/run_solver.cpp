@@ -70,7 +70,8 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
     return proof.words();
   }
   if (run.verdict == Verdict::unsolved)
-    return std::string("unsolved: ") + name_of(run.solved.reason);
+    return std::string("unsolved: ") + name_of(run.solved.reason) +
+           (run.failure.empty() ? "" : ": " + run.failure);
   if (run.verdict == Verdict::denied)
     return "the judge denies it: " + what_is_missed(run.error, tolerance);
   std::ostringstream text;

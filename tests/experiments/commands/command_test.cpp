@@ -10,6 +10,8 @@
 
 #include "experiments/commands/command.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
+#include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -58,6 +60,7 @@ TEST_CASE("a command line that asks for nothing, or for what there isn't, is exi
   CHECK_THAT(said({}).err, Catch::StartsWith("ballast: A subcommand is required"));
   CHECK(said({"simulate"}).code == 2);
   CHECK_THAT(said({"simulate"}).err, Catch::EndsWith(" (ballast --help)\n"));
+  CHECK_THAT(said({"rn"}).err, Catch::StartsWith("ballast: no command 'rn'"));
   CHECK(said({"bench", "kernels", "--only"}).err ==
         "ballast: kernels: no option --only (ballast bench kernels --help)\n");
 }
@@ -93,6 +96,12 @@ TEST_CASE("a command's help ends in its own text, and in no other's") {
   }
   std::vector<std::string> texts{help_text("ballast")};
   for (const std::string& path : paths) texts.push_back(help_text(path));
+  for (const std::string& text : texts) {  // examples name solvers that there are
+    std::istringstream words(text);
+    for (std::string word, before; words >> word; before = word)
+      if ((before == "--solver" || before == "--solvers") && word != "all")
+        for (const std::string& name : split(word, ',')) CHECK_NOTHROW(find_solver(name));
+  }
   for (const std::string& path : paths) {
     INFO(path);
     const std::string help = help_of(path);

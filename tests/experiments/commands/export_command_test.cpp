@@ -3,6 +3,7 @@
 #include "geometry/shape/polyhedron.hpp"
 #include "platform/atomic_file.hpp"
 #include "tests/support/mesh_writer.hpp"
+#include "tests/support/problem_folder.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -49,8 +50,8 @@ TEST_CASE("an export has the shapes of the run, also when the mesh is another on
 TEST_CASE("export takes its format from the suffix, one time, or all") {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
-  REQUIRE(ballast_program({"run", "incline", "--set", "record.forces=true", "--output",
-                           run.string(), "--no-report"})
+  REQUIRE(ballast_program({"run", "incline", "--set", "record.forces=true", "--set",
+                           "record.state_rate=10", "--output", run.string(), "--no-report"})
               .status == 0);
   CHECK_THAT(read_whole_file(run / "scene.toml"), Catch::Contains("forces = true"));
   CHECK(exported(run, folder.path() / "a.vtp").status == 0);
@@ -59,8 +60,11 @@ TEST_CASE("export takes its format from the suffix, one time, or all") {
   for (const char* time : {"nan", "inf", "soon", "1e400"})
     check_failure(exported(run, folder.path() / "a.obj", {"--time", time}), ExitCode::usage,
                   {"--time", time});
-  const ProgramResult at = exported(run, folder.path() / "a.obj", {"--time", "0.2"});
-  CHECK_THAT(at.output, Catch::Contains("state at 0.2 s, step 200"));
+  const ProgramResult at = exported(run, folder.path() / "a.obj", {"--time", "0.2"}),
+                      kept =
+                          exported(run / "states" / "step_00000200.bin", folder.path() / "a.obj");
+  for (const ProgramResult& said : {at, kept})
+    CHECK_THAT(said.output, Catch::Contains("state at 0.2 s, step 200"));
   const fs::path series = folder.path() / "all" / "block.vtp";
   const ProgramResult all = exported(run, series, {"--all"});
   CHECK(all.status == 0);
@@ -81,6 +85,19 @@ TEST_CASE("a picture of a frame, and a page that shows a thing") {
   CHECK_THAT(read_whole_file(picture), Catch::Contains("acTL"));
   check_failure(exported(run, picture, {"--frames", "2:99"}), ExitCode::failure, {"--frames 2:99"});
   check_failure(exported(run, picture, {"--frames", "2:1"}), ExitCode::usage, {"FIRST:LAST"});
+  // each option is obeyed or refused
+  const fs::path mesh = folder.path() / "box.obj";
+  CHECK_THAT(exported(run, mesh, {"--frames", "1"}).output, Catch::Contains("at 0.01 s, step 10"));
+  check_failure(exported(run, mesh, {"--frames", "1:2"}), ExitCode::usage,
+                {"box.obj: --frames FIRST:LAST"});
+  check_failure(exported(run, mesh, {"--frames", "99"}), ExitCode::failure, {"--frames 99"});
+  for (const char* word : {"--view=x", "--chains", "--width=64"})
+    check_failure(exported(run, mesh, {word}), ExitCode::usage, {"box.obj: --view, --chains"});
+  for (const char* other : {"--time=0.01", "--all"})
+    check_failure(exported(run, picture, {"--frames", "1", other}), ExitCode::usage, {"--frames"});
+  CHECK(exported(run, folder.path() / "all" / "box.png", {"--all", "--width", "64"}).status == 0);
+  CHECK(fs::exists(folder.path() / "all" / "box_00000010.png"));
+  check_failure(exported(run / "checkpoint.bin", picture), ExitCode::failure, {"one state"});
   check_failure(exported(run, picture, {"--view", "up"}), ExitCode::usage, {"--view", "up"});
   check_failure(exported(run, picture, {"--chains"}), ExitCode::failure, {"record.forces"});
   const ProgramResult view = ballast_program({"view", run.string()});
@@ -91,4 +108,23 @@ TEST_CASE("a picture of a frame, and a page that shows a thing") {
   CHECK(fs::exists(scene));
   check_failure(ballast_program({"view", "nothing_of_that_name"}), ExitCode::failure,
                 {"nothing_of_that_name"});
+}
+
+TEST_CASE("a view is not written over what it shows, and says what is no problem") {
+  const ProblemFolder c;
+  const fs::path problem = c.in / "a.hdf5", mesh = c.folder.path() / "box.obj",
+                 scene = c.folder.write("mine.toml", mesh_scene);
+  write_mesh(mesh, make_box(Vec3(1, 1, 1)));
+  for (const fs::path& thing : {problem, mesh, scene}) {
+    const std::string before = read_whole_file(thing);
+    check_failure(ballast_program({"view", thing.string(), "--output", thing.string()}),
+                  ExitCode::failure,
+                  {thing.string() + ": is no page (.html): it would be written over"});
+    CHECK(read_whole_file(thing) == before);
+  }
+  check_failure(ballast_program({"view", problem.string()}), ExitCode::failure,
+                {"does not say where its contacts are"});
+  fs::resize_file(problem, fs::file_size(problem) / 2);
+  check_failure(ballast_program({"view", problem.string()}), ExitCode::failure,
+                {"a.hdf5: damaged or truncated"});
 }

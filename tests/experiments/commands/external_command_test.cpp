@@ -125,7 +125,8 @@ TEST_CASE("whatever a program does is its row, and nothing is left running") {
   }
   CHECK(rows.at("good").startup > 0.0);
   CHECK_THAT(result.output,
-             Contains("error       nan  dies: the program ended with exit code 3: "));
+             Contains("error       nan  dies: the program ended with exit code 3: ") &&
+                 Contains(rows.at("nan").note));
   CHECK_THAT(rows.at("other").note, Contains("10 contacts") || Contains("11 contacts") ||
                                         Contains("answers another problem"));
   CHECK(processes_with("86398.25") == 0);
@@ -164,6 +165,10 @@ TEST_CASE("solve asks a program, and says what is wrong with the words") {
   CHECK_THAT(solved.output, Contains("\"solver\": \"own\"") && Contains("\"verdict\": \"solved\""));
   check_failure(ballast_program({"solve", file.string(), "--external", "bad=exit 3 #"}),
                 ExitCode::failure, {"the program ended with exit code 3", "(crashed)"});
+  const ProgramResult silent =
+      ballast_program({"solve", file.string(), "--external", "silent=true"});
+  for (const std::string& said : {silent.output, silent.errors})
+    CHECK_THAT(said, Contains("silent: ") && Contains("no such file"));
   check_failure(ballast_program({"solve", file.string(), "--external", "nothing"}), ExitCode::usage,
                 {"--external", "expected name=command"});
   check_failure(ballast_program({"compare", "known:", "--external", "pgs=true"}), ExitCode::usage,

@@ -51,8 +51,29 @@ TEST_CASE("solve keeps its answer and starts from it") {
   CHECK(fs::exists(c.out / "b.hdf5"));
   words.back() = answer.string();
   check_failure(ballast_program(words), ExitCode::usage, {"several problems need a folder"});
-  check_failure(ballast_program({"solve", problem, "--output", problem}), ExitCode::failure,
-                {"written over the problem"});
   check_failure(ballast_program({"solve", problem, "--start", problem}), ExitCode::failure,
-                {"/solution/r: no such dataset"});
+                {"/solution/r: no such dataset (no_start)"});
+  const std::string none = (c.in / "none.hdf5").string();
+  check_failure(ballast_program({"solve", problem, "--start", none}), ExitCode::failure,
+                {"none.hdf5: no such file (no_start)"});
+}
+
+TEST_CASE("solve replaces nothing but an older answer") {
+  const ProblemFolder c;
+  const std::string a = (c.in / "a.hdf5").string(), b = (c.in / "deep" / "b.hdf5").string(),
+                    text = c.folder.write("min.toml", "").string();
+  fs::create_directories(c.out);
+  fs::copy_file(a, c.out / "a.hdf5");
+  const auto fails = [&](std::vector<std::string> words, const char* named) {
+    words.insert(words.begin(), {"solve", a});
+    const ProgramResult result = ballast_program(words);
+    check_failure(result, ExitCode::failure, {named});
+    CHECK_FALSE(Catch::Contains("unreadable").match(result.errors + result.output));
+  };
+  fails({"--output", a}, "a.hdf5: is no answer of solve: it would be written over");
+  fails({"--output", b}, "b.hdf5: is no answer");
+  fails({"--output", text}, "min.toml: cannot make the folder");
+  fails({(c.out / "a.hdf5").string(), "--output", (c.folder.path() / "new").string()},
+        "a.hdf5: holds the answer to");
+  CHECK(read_problem(b).contact_count() == 12);
 }

@@ -203,6 +203,8 @@ TEST_CASE("what is not solved says why, and is searched for a proof that it cann
         "the judge denies it: the impulses, or velocities that they give, are not finite");
   SolverRun early = judged(problem, Impulses::Zero(3), StopReason::time_limit);
   CHECK(explained(problem, early, 1e-8) == "unsolved: time_limit");
+  early.failure = "why";
+  CHECK(explained(problem, early, 1e-8) == "unsolved: time_limit: why");
   CHECK(early.verdict == Verdict::unsolved);
   SolverRun none = judged(squeezed_contacts(), Impulses::Zero(6), StopReason::stalled);
   CHECK(explained(squeezed_contacts(), none, 1e-8) ==
