@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -132,11 +133,22 @@ void create_folder(const fs::path& folder) {
     throw Error(folder.string() + ": cannot make the folder: there is a file of that name");
 }
 
-void require_own_folder(const fs::path& folder, std::initializer_list<const char*> known) {
-  std::error_code error;
-  if (!is_folder(folder) || fs::is_empty(folder, error)) return;
-  for (const char* name : known)
-    if (is_folder(folder / name)) return;
+void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> known) {
+  for (const auto& [name, words] : known) {
+    const fs::path mark = folder / name;
+    if (words ? is_file(mark) && read_whole_file(mark).find(words) != std::string::npos
+              : is_folder(mark))
+      return;
+  }
+  if (!is_folder(folder)) return;
+  // Who is killed before his first file is whole leaves folders, and a file beside it.
+  constexpr auto skipping = fs::directory_options::skip_permission_denied;
+  const bool has_files = std::any_of(fs::recursive_directory_iterator(folder, skipping),
+                                     fs::recursive_directory_iterator(), [](const auto& entry) {
+                                       return !fs::is_directory(entry.symlink_status()) &&
+                                              entry.path().extension() != ".tmp";
+                                     });
+  if (!has_files) return;
   throw Error(folder.string() +
               ": holds files that are no results of this kind: give a folder that is new or empty");
 }

@@ -48,11 +48,16 @@ std::string read_whole_file(const std::filesystem::path& file);
 /// Makes a folder and its parents. Throws Error.
 void create_folder(const std::filesystem::path& folder);
 
-/// Before results are written into a folder. Throws Error unless it is missing, empty, or has a
-/// subfolder of one of these names, by which a folder of the same kind of results is known: what
-/// else is there is somebody's, and is not to be mixed with results.
-void require_own_folder(const std::filesystem::path& folder,
-                        std::initializer_list<const char*> known);
+/// By what a folder of results is known: a subfolder, or a file that has these words in it.
+struct OwnMark {
+  OwnMark(const char* name_, const char* words_ = nullptr) : name(name_), words(words_) {}
+  const char *name, *words;
+};
+
+/// Before results are written into a folder. Throws Error unless it is missing, has no whole file,
+/// or one of these marks, by which a folder of the same kind of results is known: what else is
+/// there is somebody's, and is not to be mixed with results.
+void require_own_folder(const std::filesystem::path& folder, std::initializer_list<OwnMark> known);
 
 /// Throws Error "<file>: cannot <action>: <errno's text>".
 [[noreturn]] void throw_file_error(const std::filesystem::path& file, std::string_view action);

@@ -289,7 +289,6 @@ void write_page(const BenchPage& page, const std::map<std::string, std::string>&
   CsvWriter rows;
   rows.add_row(std::vector<std::string>{"number", "value"});
   for (const auto& [name, value] : numbers) rows.add_row(std::vector<std::string>{name, value});
-  create_folder("measured");
   write_whole_file("measured/numbers.csv", rows.take());
   write_whole_file("results.md", filled_page(page, numbers));
   for (const BenchStage& stage : page.stages)
@@ -301,7 +300,8 @@ void measure_page(const BenchAll& options, std::string_view text) {
   const BenchPage page = read_bench_page(text);
   std::map<std::string, std::string> kept;
   if (!options.rows.empty()) kept = read_rows(options.rows);
-  create_folder(options.output);
+  require_own_folder(options.output, {"measured"});
+  create_folder(options.output / "measured");
   fs::current_path(options.output);
   if (!options.rows.empty()) return write_page(page, kept);
   const InterruptGuard guard;

@@ -8,6 +8,8 @@
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/comparison.hpp"
+#include "platform/atomic_file.hpp"
+#include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
@@ -43,6 +45,22 @@ std::vector<double> tolerances_or_none(const std::string& list) {
 }
 
 void say(const std::string& text) { std::cout << text << std::flush; }
+
+/// Before hours of measuring: results of several kinds may share a folder.
+void require_own_results(const BenchRequest& request, const std::string& kind) {
+  const std::filesystem::path file = request.output / (kind + ".json");
+  if (is_there(file)) read_bench_result(file);  // says so where it is somebody's
+  constexpr const char* ours = "\"measurements\": [";
+  require_own_folder(request.output, {{"kernels.json", ours},
+                                      {"step.json", ours},
+                                      {"scaling.json", ours},
+                                      {"accuracy.json", ours},
+                                      {"captured.json", ours},
+                                      "packings",
+                                      "live",
+                                      "rows",
+                                      "exact"});
+}
 
 ExitCode finish(const BenchRequest& request, const std::string& kind,
                 const std::vector<Measurement>& measurements, const Figure* figure) {
@@ -105,6 +123,7 @@ ExitCode bench_accuracy(const BenchRequest& request) {
 }
 
 ExitCode bench_captured(const BenchRequest& request) {
+  require_own_results(request, "captured");
   restart_with_one_algebra_thread();
   CompareOptions options = request.captured;
   options.folder = request.output;
@@ -136,7 +155,10 @@ Command measuring(const char* name, const char* meaning,
       {"--output DIR", &request->output, "Folder of the results"},
       {"--no-plot", &request->plot, "No figure"}};
   words.insert(words.end(), more.begin(), more.end());
-  return {name, meaning, words, [=] { return act(*request); }};
+  return {name, meaning, words, [=] {
+            require_own_results(*request, name);
+            return act(*request);
+          }};
 }
 
 Command kernels_command() {
@@ -242,7 +264,11 @@ Command diff_command() {
           {{"A", &files->a, "A .json of ballast bench", required},
            {"B", &files->b, "Another of the same kind", required}},
           [files] {
-            say(bench_ratio_table(read_bench_result(files->a), read_bench_result(files->b)));
+            const BenchResult a = read_bench_result(files->a), b = read_bench_result(files->b);
+            if (a.kind != b.kind)
+              throw Error(files->b.string() + ": kind = \"" + b.kind + "\", expected \"" + a.kind +
+                          "\" as of " + files->a.string());
+            say(bench_ratio_table(a, b));
             return ExitCode::ok;
           }};
 }

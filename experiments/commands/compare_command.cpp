@@ -146,9 +146,10 @@ struct MergeOptions {
 };
 
 std::vector<StoredComparison> read_all(const MergeOptions& options) {
-  require_own_folder(options.output, {});
   std::vector<StoredComparison> comparisons;
   for (const std::string& folder : options.folders) comparisons.push_back(read_comparison(folder));
+  // The manifest of what is merged alone has an empty key.
+  require_own_folder(options.output, {{"manifest.json", "\"key\": \"\""}});
   return comparisons;
 }
 
@@ -176,7 +177,7 @@ Command merging_command(const char* name, const char* meaning, const char* outpu
   return {name,
           meaning,
           {{"folders", &options->folders, "Folders of comparisons", required},
-           {"--output DIR", &options->output, "Folder of the page and its table, new or empty"}},
+           {"--output DIR", &options->output, "Folder of the page and its table"}},
           [options, act] { return act(*options); }};
 }
 

@@ -8,7 +8,7 @@
 
 #include "experiments/commands/command.hpp"
 #include "experiments/record/checkpoint.hpp"
-#include "experiments/run/run_folder.hpp"
+#include "experiments/run/run.hpp"
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "platform/atomic_file.hpp"
@@ -46,7 +46,7 @@ struct CheckOptions {
 };
 
 std::string check_scene(const std::string& file, const CheckOptions& options) {
-  const Scene scene = read_scene(file, options.overrides);
+  const Scene scene = resolve_run(file, options.overrides).scene;
   make_solver(scene.solver.name);
   const std::string what =
       scene.grains
@@ -109,7 +109,7 @@ std::string check(const std::string& file, const CheckOptions& options) {
   if (is_there(file) || !suffix.empty())
     throw UsageError(
         file + ": unknown kind of file, expected .toml, .obj, .stl, .hdf5, .h5, .dat or .bin");
-  return check_scene(find_scene(file).string(), options);
+  return check_scene(file, options);
 }
 
 struct ConvertOptions {
@@ -223,8 +223,10 @@ Command scenes_command() {
               return ExitCode::ok;
             }
             std::cout << "in " << scene_folder().string() << ":\n";
-            for (const auto& [name, title] : list_scenes())
+            std::string unreadable;
+            for (const auto& [name, title] : list_scenes(&unreadable))
               std::cout << printed("%-22s", name.c_str()) << title << '\n';
+            if (!unreadable.empty()) throw Error(unreadable);
             return ExitCode::ok;
           }};
 }

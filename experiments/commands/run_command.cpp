@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <set>
 
@@ -192,7 +191,8 @@ ExitCode run_stages(const PaperData& data, const PaperOptions& options) {
 ExitCode reproduce(PaperOptions options) {
   const std::vector<PlannedRun> campaign = read_campaign(options.campaign);
   std::vector<std::string> targets{"plan", "report", "article", "archive"};
-  std::ranges::copy(paper_targets(campaign), std::back_inserter(targets));
+  const std::vector<std::string> run_targets = paper_targets(campaign);
+  targets.insert(targets.end(), run_targets.begin(), run_targets.end());
   if (std::ranges::find(targets, options.target) == targets.end())
     throw UsageError("paper: '" + options.target + "' is none of " + joined(targets));
   if (options.output.empty())
@@ -205,6 +205,13 @@ ExitCode reproduce(PaperOptions options) {
     print_plan(known);
     return ExitCode::ok;
   }
+  const bool makes_runs = std::ranges::find(run_targets, options.target) != run_targets.end();
+  if (!makes_runs && known.finished() + known.known_by_row() + known.foreign() == 0)
+    throw Error(options.running.results.string() +
+                ": holds no finished run of the campaign; --rows FILE takes runs from a table");
+  if (options.target != "archive")
+    require_own_folder(options.output, {{"data/runs_columns.csv", "column,unit,"},
+                                        {"article.md", "computed from the rows of its campaign"}});
   if (options.target == "article") {
     const ExitCode code = write_article(known, options.output, std::cerr);
     std::cout << "article in " << (options.output / "article.md").string() << std::endl;
@@ -225,7 +232,8 @@ ExitCode reproduce(PaperOptions options) {
     code = run_stages(known, options);
   PaperData data = data_of(campaign, options);
   write_paper_report(data, make_sections(data, options.target), options.output);
-  std::cout << data.finished() << " of " << data.planned() << " runs; report in "
+  std::cout << data.finished() << " of " << data.planned() << " runs, "
+            << data.known_by_row() + data.foreign() << " known by rows; report in "
             << (options.output / "paper.html").string() << std::endl;
   return code;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "platform/text.hpp"
+#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {
@@ -164,6 +165,10 @@ std::string steps_words(const RunSummary& run) {
       "the mean of all steps, %.2g in the worst.",
       run.missed, run.steps, run.facts.tolerance, unit, run.error_rms.mean / scale, unit,
       run.error_rms.max / scale);
+  for (const SolverEntry& entry : solver_list())
+    if (entry.name == run.facts.solver && entry.law != ContactLaw::coulomb)
+      return text + " " + run.facts.solver + " solves another law (" + name_of(entry.law) +
+             ") than the one that it is judged by.";
   text += printed(" More accurate and slower: --set solver.max_iterations=%d",
                   5 * std::max(1, static_cast<int>(run.facts.iterations_most)));
   if (run.facts.solver != "auto") text += ", or --set solver.name=auto";
@@ -174,8 +179,10 @@ std::string overlap_words(const RunSummary& run) {
   return "The deepest overlap is " + length_text(run.penetration_max) +
          printed(" at t = %.3g s, %.2g %% of the smallest body's radius. ",
                  run.penetration_max_time, 100.0 * run.penetration_max / run.facts.smallest_size) +
-         (run.missed > 0 ? "A smaller error of the steps mends it, or a smaller scene.step."
-                         : "A smaller scene.step mends it.");
+         (run.penetration_max_time < 1.5 * run.facts.step
+              ? "Bodies begin inside one another: the scene is to be mended."
+          : run.missed > 0 ? "A smaller error of the steps mends it, or a smaller scene.step."
+                           : "A smaller scene.step mends it.");
 }
 
 std::string energy_words(const RunSummary& run) {
@@ -309,10 +316,12 @@ std::vector<std::string> trust_words(const RunSummary& run) {
   if (run.missed > 0) words.push_back(steps_words(run));
   if (overlaps(run)) words.push_back(overlap_words(run));
   if (gains(run)) words.push_back(energy_words(run));
-  if (words.empty() && run.facts.tolerance > 0.0)
-    words.push_back(printed("Every step reached the tolerance of %.3g %s; the deepest overlap is ",
-                            run.facts.tolerance, error_unit(run)) +
-                    length_text(run.penetration_max) + ".");
+  if (words.empty())
+    words.push_back((run.facts.tolerance > 0.0
+                         ? printed("Every step reached the tolerance of %.3g %s",
+                                   run.facts.tolerance, error_unit(run))
+                         : "No step was asked for a tolerance") +
+                    "; the deepest overlap is " + length_text(run.penetration_max) + ".");
   return words;
 }
 

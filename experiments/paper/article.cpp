@@ -80,8 +80,8 @@ ExitCode write_article(PaperData& data, const fs::path& folder, std::ostream& no
   pictures.add({"figures", "", {}});
   pictures.sections.back().add(figures_in(article_prose(), sections));
   create_folder(folder);
+  write_whole_file(folder / "article.md", article_of(sections));  // first: the folder is ours
   page::draw_pictures(pictures, folder, {.is_file_shown = true});
-  write_whole_file(folder / "article.md", article_of(sections));
   const bool html = typeset(folder, "html", {"--mathml", "--self-contained"}, notes),
              pdf = typeset(folder, "pdf", {"--pdf-engine=xelatex"}, notes);
   return html && pdf ? ExitCode::ok : ExitCode::backend_missing;

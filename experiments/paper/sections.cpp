@@ -344,11 +344,11 @@ page::Page paper_page(const std::vector<PaperSection>& sections,
 void write_paper_report(PaperData& data, const std::vector<PaperSection>& sections,
                         const fs::path& folder) {
   create_folder(folder / "data");
+  write_whole_file(folder / "data" / "runs_columns.csv", run_columns_csv());  // the folder is ours
   for (const PaperSection& section : sections)
     for (const page::Picture& figure : section.figures)
       write_whole_file(folder / "data" / (figure.plot.name + ".csv"), figure_csv(figure.plot));
   write_whole_file(folder / "data" / "runs.csv", runs_csv(data.rows()));
-  write_whole_file(folder / "data" / "runs_columns.csv", run_columns_csv());
   page::Page page = paper_page(sections, origin_of(data));
   page.answers = {.are_given = true, .with_curves = true};
   // the data stand beside as CSV, and README.md shows the files themselves

@@ -6,8 +6,8 @@
 #include <fnmatch.h>
 
 #include "experiments/box/vibrated_box.hpp"
+#include "experiments/run/run.hpp"
 #include "platform/text.hpp"
-#include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
 
 namespace ballast {
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 PlannedRun planned_run(const std::string& name, const std::string& text,
                        const std::vector<std::string>& overrides) {
-  const ResolvedScene resolved = resolve_scene(find_scene(text), overrides);
+  const ResolvedScene resolved = resolve_run(text, overrides);
   const Scene& scene = resolved.scene;
   PlannedRun run{name, text, overrides, resolved.key, {}, scene.step_count()};
   const double bodies =

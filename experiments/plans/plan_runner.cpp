@@ -228,6 +228,7 @@ class Engine {
       if (task.state != TaskState::waiting) continue;
       const Task* deposit = task.deposit < 0 ? nullptr : &tasks_[static_cast<size_t>(task.deposit)];
       if (deposit && deposit->state == TaskState::failed) {
+        task.log = deposit->log;  // it has none of its own
         fail(task, deposit->title + " failed");
         continue;
       }
@@ -266,7 +267,9 @@ class Engine {
 
   void fail(Task& task, const std::string& reason) {
     task.state = TaskState::failed;
-    say("FAILED    " + task.title + ": " + reason + " (" + task.log.string() + ")");
+    const std::string words = task.title + ": " + reason + " (" + task.log.string() + ")";
+    if (failure_.empty()) failure_ = words;
+    say("FAILED    " + words);
   }
 
   /// index.csv, every twenty seconds and at the end: what has failed is known here alone.
@@ -288,10 +291,14 @@ class Engine {
     if (failed > 0) std::cout << ", " << failed << " failed";
     if (runs > finished + failed) std::cout << ", " << runs - finished - failed << " to do";
     std::cout << "; see " << (options_.results / "index.csv").string() << std::endl;
-    if (stopped == ExitCode::ok) return failed > 0 ? ExitCode::failure : ExitCode::ok;
-    std::cout << (stopped == ExitCode::time_limit ? "time limit reached" : "interrupted")
-              << "; nothing is lost: the same command goes on" << std::endl;
-    return stopped;
+    if (stopped == ExitCode::ok && failed == 0) return ExitCode::ok;
+    std::cerr << "ballast: plan " << plan_.name << ": ";
+    if (stopped == ExitCode::ok)
+      std::cerr << failed << " of " << runs << " runs failed; first: " << failure_ << std::endl;
+    else
+      std::cerr << (stopped == ExitCode::time_limit ? "time limit reached" : "interrupted")
+                << "; nothing is lost: the same command goes on" << std::endl;
+    return stopped == ExitCode::ok ? ExitCode::failure : stopped;
   }
 
   const Plan& plan_;
@@ -303,6 +310,7 @@ class Engine {
   StatusLine line_;
   Stopwatch watch_;
   double indexed_ = 0.0, shown_ = 0.0;
+  std::string failure_;                                      // the first
   std::map<size_t, std::unique_ptr<ChildProcess>> workers_;  // by task
   std::map<size_t, double> begun_;
 };

@@ -26,7 +26,9 @@ void write_snakemake(const Plan& plan, const fs::path& file, const PlanOptions& 
     throw Error(folder.string() +
                 ": stands in commands for a shell and Snakemake: expected a path without blanks, "
                 "quotes and brackets");
+  require_own_folder(folder, {{"Snakefile", "Written by `ballast plan --snakemake`"}});
   create_folder(folder / "slurm" / "jobs");
+  write_whole_file(folder / "Snakefile", cluster_file("Snakefile"));
   std::string profile = cluster_file("config.yaml");
   replace_all(profile, "@", folder.string());  // it stands for this folder
   write_whole_file(folder / "slurm" / "config.yaml", profile);
@@ -51,7 +53,6 @@ void write_snakemake(const Plan& plan, const fs::path& file, const PlanOptions& 
                  {"runs", jobs}};
   write_whole_file(folder / "runs.json",
                    all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  write_whole_file(folder / "Snakefile", cluster_file("Snakefile"));
 }
 
 }  // namespace ballast

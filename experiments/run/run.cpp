@@ -9,10 +9,24 @@
 #include "experiments/record/recorder.hpp"
 #include "platform/clock.hpp"
 #include "platform/interrupt.hpp"
-#include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
 
 namespace ballast {
+
+ResolvedScene resolve_run(const std::string& scene, const std::vector<std::string>& overrides) {
+  const std::filesystem::path file = find_scene(scene);
+  ResolvedScene resolved = resolve_scene(file, overrides);
+  const auto require = [&](const char* key, const std::string& name) {
+    try {
+      find_solver(name);
+    } catch (const UnknownSolver& error) {
+      throw SceneFileError(file.string() + ": " + key + " = \"" + name + "\": " + error.what());
+    }
+  };
+  require("solver.name", resolved.scene.solver.name);
+  if (resolved.scene.grains) require("deposit.solver", resolved.scene.deposit.solver);
+  return resolved;
+}
 
 bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manifest,
                  PreparedRun& run) {
@@ -60,7 +74,7 @@ class Run {
  public:
   Run(const RunOptions& options)
       : options_(options),
-        resolved_(resolve_scene(find_scene(options.scene), options.overrides)),
+        resolved_(resolve_run(options.scene, options.overrides)),
         folder_(options.output.empty() ? std::filesystem::path("results") / resolved_.scene.name
                                        : options.output),
         manifest_(resolved_.scene.name, options.overrides, resolved_.key) {

@@ -31,7 +31,8 @@ double scene_friction(const std::filesystem::path& file);
 /// installation (see scene_folder()). Throws SceneFileError that lists what there is.
 std::filesystem::path find_scene(const std::string& name_or_path);
 std::filesystem::path scene_folder();
-/// name and title of every scene in the folder, sorted.
-std::vector<std::pair<std::string, std::string>> list_scenes();
+/// name and title of every scene in the folder, sorted. One that is no TOML is left out, and what
+/// is wrong with it is said in `unreadable`.
+std::vector<std::pair<std::string, std::string>> list_scenes(std::string* unreadable = nullptr);
 
 }  // namespace ballast

@@ -24,15 +24,18 @@ fs::path scene_folder() {
   return BALLAST_SCENE_FOLDER;  // of the source tree: problems/scenes
 }
 
-std::vector<std::pair<std::string, std::string>> list_scenes() {
+std::vector<std::pair<std::string, std::string>> list_scenes(std::string* unreadable) {
   std::vector<std::pair<std::string, std::string>> scenes;
   const fs::path folder = scene_folder();
   if (!is_folder(folder)) throw SceneFileError(folder.string() + ": no such folder of scenes");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
-    const toml::table table = load_toml(entry.path());
-    scenes.emplace_back(entry.path().stem().string(),
-                        table["scene"]["title"].value_or(std::string()));
+    try {
+      scenes.emplace_back(entry.path().stem().string(),
+                          load_toml(entry.path())["scene"]["title"].value_or(std::string()));
+    } catch (const SceneFileError& error) {
+      if (unreadable) add_to_list(*unreadable, error.what());
+    }
   }
   std::sort(scenes.begin(), scenes.end());
   return scenes;

@@ -162,15 +162,21 @@ TEST_CASE("results go into a folder that is new, empty, or has such results") {
   const TemporaryFolder folder;
   const fs::path results = folder.path() / "results";
   const auto said = [&] {
-    return complaint_about(results, [&] { require_own_folder(results, {"rows", "runs"}); });
+    return complaint_about(results, [&] {
+      require_own_folder(results, {"rows", {"a", "ours"}, "runs"});
+    });
   };
   CHECK(said() == "");
   fs::create_directory(results);
+  write_whole_file(results / "killed.tmp", "");  // before a first file was whole
   CHECK(said() == "");
-  for (const char* file : {"notes.txt", "rows"}) {  // the user's own
+  for (const char* file : {"notes.txt", "rows", "a"}) {  // the user's own
     write_whole_file(results / file, "no folder");
     CHECK_THAT(said(), Catch::StartsWith("holds files"));
   }
+  write_whole_file(results / "a", "it is ours");
+  CHECK(said() == "");
+  fs::remove(results / "a");
   fs::create_directory(results / "runs");
   CHECK(said() == "");
 }

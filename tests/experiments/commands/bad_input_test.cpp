@@ -121,7 +121,7 @@ TEST_CASE("a bad scene is exit code 1 and names file, line, key and value") {
       {"[grains]\ncount = -5\n[box]\nlength = 1\nwidth = 1\n", {"grains.count = -5", "from 1"}},
       {"[grains]\ncount = 5\nmeshes = [\"none.obj\"]\n[box]\nlength = 1\nwidth = 1\n",
        {"grains.meshes", "none.obj"}},
-      {wall + "[solver]\nname = \"oracle\"\n", {"oracle", "pgs"}},
+      {wall + "[solver]\nname = \"oracle\"\n", {"scene.toml: solver.name = \"oracle\"", "pgs"}},
   };
   const TemporaryFolder folder;
   for (const Wrong& wrong : wrongs) {
@@ -162,6 +162,32 @@ TEST_CASE("a bad override or an unknown scene is exit code 1") {
   }
   check_failure(ballast_program({"scenes", "no_such_scene"}), ExitCode::failure,
                 {"no_such_scene", "vibrated_box"});
+}
+
+TEST_CASE("a name of no solver is told by all that read a scene to run it, before they do") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string(),
+                    plan = folder.write("p.toml",
+                                        "scene = \"vibrated_box_small\"\n[[run]]\n"
+                                        "name = \"one\"\nset = [\"deposit.solver=foo\"]\n");
+  const std::string box = "vibrated_box_small", set = "deposit.solver=foo";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"check", box, "--set", set},
+        {"plan", plan, "--dry-run"},
+        {"compare", "--live", box, "--set", set, "--output", out}})
+    check_failure(ballast_program(words), ExitCode::failure,
+                  {words[0] == "plan" ? "p.toml: run one: " : "",
+                   "vibrated_box_small.toml: deposit.solver = \"foo\": no solver", "pgs"});
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
+TEST_CASE("the paper of no run and no row is an error, and nothing is written") {
+  const TemporaryFolder folder;
+  const std::string results = (folder.path() / "nothere").string();
+  for (const char* target : {"report", "article", "archive"})
+    check_failure(ballast_program({"paper", target, "--results", results}), ExitCode::failure,
+                  {results, "no finished run", "--rows"});
+  CHECK_FALSE(std::filesystem::exists(results));
 }
 
 TEST_CASE("a folder that can't take the run is exit code 1") {

@@ -22,6 +22,10 @@ TEST_CASE("two results are printed as a ratio table") {
   CHECK_THAT(result.output, Catch::Contains("| 1 thread, all/step | ms | 10 | 5 | 0.5 |"));
   check_failure(ballast_program({"bench", "diff", a, folder.write("c.json", "[]").string()}),
                 ExitCode::failure, {"c.json", "is no result of ballast bench"});
+  write_bench_result(folder.path(), "kernels", "ballast bench kernels", {});
+  const std::string other = (folder.path() / "kernels.json").string();
+  check_failure(ballast_program({"bench", "diff", a, other}), ExitCode::failure,
+                {other, "kind = \"kernels\", expected \"step\""});
 }
 
 TEST_CASE("steps are measured, and how is kept with them") {

@@ -64,12 +64,17 @@ TEST_CASE("jobs of a comparison are merged, and a quiet one says nothing") {
   }
   const fs::path all = folder.path() / "all";
   merge.insert(merge.end(), {"--output", all.string()});
-  const ProgramResult merged = ballast_program(merge);
-  CHECK(merged.status == 0);
-  CHECK_THAT(merged.output, Catch::Contains("2 comparisons, 2 rows: " + all.string()));
+  for (const char* command : {"merge", "ranking", "merge"}) {  // again into what is made of them
+    merge[1] = command;
+    const ProgramResult merged = ballast_program(merge);
+    CHECK(merged.status == 0);
+    CHECK_THAT(merged.output, Catch::Contains("2 rows: " + all.string()));
+  }
   CHECK(fs::exists(all / "compare.html"));
   merge.back() = merge[2];
-  check_failure(ballast_program(merge), ExitCode::failure, {merge[2]});
+  check_failure(ballast_program(merge), ExitCode::failure, {merge[2], "holds files"});
+  merge[3] = "nowhere";  // said before the folder that is not to be written into
+  check_failure(ballast_program(merge), ExitCode::failure, {"nowhere: no folder of a comparison"});
 }
 
 TEST_CASE("what became of a comparison is told, with an exit code") {

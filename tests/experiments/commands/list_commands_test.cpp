@@ -3,6 +3,7 @@
 #include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
 
@@ -26,4 +27,13 @@ TEST_CASE("scenes are listed, printed, resolved") {
   const ProgramResult changed = ballast_program({"scenes", "incline", "--set", "scene.step=1e-5"});
   CHECK_THAT(changed.output, Catch::Contains("step = 1e-05"));
   check_failure(ballast_program({"scenes", "none"}), ExitCode::failure, {"none", "vibrated_box"});
+  const TemporaryFolder folder;
+  folder.write("good.toml", "[scene]\ntitle = \"My own\"\n");
+  folder.write("bad.toml", "[scene\n");
+  const auto mine = [&](const std::vector<std::string>& words) {
+    return ballast_in_shell("BALLAST_SCENES='" + folder.path().string() + "' \"$@\"", words);
+  };
+  check_failure(mine({"scenes"}), ExitCode::failure, {"bad.toml:1:", "not valid TOML"});
+  CHECK_THAT(mine({"scenes"}).output, Catch::Contains("good                  My own\n"));
+  check_failure(mine({"run", "none"}), ExitCode::failure, {"none: no scene of", "one of good"});
 }

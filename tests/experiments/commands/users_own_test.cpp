@@ -41,6 +41,38 @@ TEST_CASE("a run with --overwrite leaves a folder alone that no run of ours made
   CHECK_FALSE(fs::exists(theirs / "manifest.json"));
 }
 
+TEST_CASE("no command writes over files of somebody's, and each may be repeated") {
+  const TemporaryFolder folder;
+  const std::string source = BALLAST_SOURCE_FOLDER "/docs/measured/", theirs = folder.path() / "t",
+                    ours = folder.path() / "ours/";
+  const fs::path plan = folder.write("p.toml", "scene = \"incline\"\n[[run]]\nname = \"a\"\n"),
+                 rows = folder.write("rows.csv", "");
+  ballast_in_shell("head -n 3 " + source + "campaign_runs.csv > " + rows.string(), {});
+  const std::vector<std::pair<const char*, std::vector<std::string>>> commands = {
+      {"README.md", {"paper", "report", "--rows", rows, "--output"}},
+      {"article.md", {"paper", "article", "--rows", rows, "--output"}},
+      {"Snakefile", {"plan", plan, "--output", folder.path() / "runs", "--snakemake"}},
+      {"step.json", {"bench", "step", "vibrated_box_small", "--output"}},
+      {"results.md", {"bench", "all", "--rows", source + "numbers.csv", "--output"}},
+  };
+  for (auto [file, words] : commands) {
+    INFO(words[1]);
+    fs::remove_all(theirs);
+    create_folder(theirs);
+    write_whole_file(fs::path(theirs) / file, "{}");
+    words.push_back(theirs);
+    check_failure(ballast_program(words), ExitCode::failure, {theirs});
+    CHECK(read_whole_file(fs::path(theirs) / file) == "{}");
+    CHECK(std::distance(fs::directory_iterator(theirs), {}) == 1);
+    if (words[1] == "article" || words[1] == "step") continue;  // of all rows, of a packing
+    words.back() = ours + file;
+    REQUIRE(ballast_program(words).status == 0);
+    const ProgramResult again = ballast_program(words);
+    CHECK(again.status == 0);
+    if (words[1] == "report") CHECK_THAT(again.output, Catch::Contains(" runs, 1 known by rows;"));
+  }
+}
+
 TEST_CASE("a scene of one's own made from a printed one has results of its own") {
   const TemporaryFolder folder;
   for (const char* how : {"", "--resolved"}) {

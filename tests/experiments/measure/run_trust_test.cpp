@@ -61,8 +61,14 @@ TEST_CASE("steps that missed their tolerance are counted, and more iterations na
             "3 of 10 steps did not reach the tolerance of 0.001 g h: their error is 0.0061 g h in "
             "the mean of all steps, 0.02 in the worst. More accurate and slower: --set "
             "solver.max_iterations=1000, or --set solver.name=auto."});
+  data.facts.solver = "sap";
+  CHECK_THAT(trust_words(data.summary()).at(0),
+             Catch::Contains("sap solves another law") && !Catch::Contains("--set"));
   data.facts.tolerance = not_known;  // no tolerance was asked for
   CHECK(data.summary().missed == 0);
+  CHECK(
+      trust_words(data.summary()) ==
+      std::vector<std::string>{"No step was asked for a tolerance; the deepest overlap is 2 µm."});
 }
 
 TEST_CASE("a step whose error is not known is missed, and left out of the mean") {
@@ -81,6 +87,10 @@ TEST_CASE("overlaps that can be seen are said with their time and size") {
   CHECK(trust_words(trust).at(0) ==
         "The deepest overlap is 31 mm at t = 0.005 s, 36 % of the smallest body's radius. A "
         "smaller scene.step mends it.");
+  data.facts.step = 5e-3;  // as of the first step
+  CHECK_THAT(
+      trust_words(data.summary()).at(0),
+      Catch::EndsWith("radius. Bodies begin inside one another: the scene is to be mended."));
   data.steps[4].penetration_max = 0.8e-3;  // below 1 % of 87 mm
   CHECK(is_clean(data.summary()));
 }
