@@ -108,27 +108,37 @@ void add_scenes(py::module_& module) {
   py::class_<SteppedScene>(module, "Scene")
       .def(py::init<const std::string&, const std::vector<std::string>&,
                     const std::filesystem::path&>())
-      .def("step",
-           [](const py::object& self, long count, const py::object& callback) {
-             return self.cast<SteppedScene&>().step(count, callback, self);
-           })
+      .def(
+          "step",
+          [](const py::object& self, long count, const py::object& callback) {
+            return self.cast<SteppedScene&>().step(count, callback, self);
+          },
+          arg("count") = 1, arg("callback") = py::none(),
+          "Steps so often; the last step's record: a number for each column of a run's record. "
+          "callback(scene, record) comes after each step, and ends the stepping when it is False.")
       .def_property_readonly(
           "positions",
-          viewed([](MotionState& s) { return s.pose[0].position.data(); }, 3, sizeof(Pose)))
-      .def_property_readonly(  // as x, y, z, w
-          "rotations", viewed([](MotionState& s) { return s.pose[0].rotation.coeffs().data(); }, 4,
-                              sizeof(Pose)))
+          viewed([](MotionState& s) { return s.pose[0].position.data(); }, 3, sizeof(Pose)),
+          "Centres of mass [m], (n, 3).")
+      .def_property_readonly(
+          "rotations",
+          viewed([](MotionState& s) { return s.pose[0].rotation.coeffs().data(); }, 4,
+                 sizeof(Pose)),
+          "Unit quaternions x, y, z, w, (n, 4).")
       .def_property_readonly(
           "velocities",
-          viewed([](MotionState& s) { return s.velocity[0].data(); }, 3, sizeof(Vec3)))
+          viewed([](MotionState& s) { return s.velocity[0].data(); }, 3, sizeof(Vec3)),
+          "Of the centres [m/s], (n, 3).")
       .def_property_readonly(
-          "spins", viewed([](MotionState& s) { return s.spin[0].data(); }, 3, sizeof(Vec3)))
-      .def_property_readonly("names", &SteppedScene::names)
-      .def_property_readonly("time", &SteppedScene::time)
-      .def_property_readonly("h", &SteppedScene::h)
-      .def_property_readonly("impulses", &SteppedScene::impulses)
-      .def("problem", &SteppedScene::problem)
-      .def("set_force", &SteppedScene::set_force);
+          "spins", viewed([](MotionState& s) { return s.spin[0].data(); }, 3, sizeof(Vec3)),
+          "Angular velocities in the bodies' frames [rad/s], (n, 3).")
+      .def_property_readonly("names", &SteppedScene::names, "Of the bodies, then of the walls.")
+      .def_property_readonly("time", &SteppedScene::time, "[s]")
+      .def_property_readonly("h", &SteppedScene::h, "Length of a step [s].")
+      .def_property_readonly("impulses", &SteppedScene::impulses, "Its solution r [N s], (n, 3).")
+      .def("last_problem", &SteppedScene::problem)
+      .def("set_force", &SteppedScene::set_force, arg("name"), arg("force"),
+           "From now on this force [N], world frame, is on that body or driven wall.");
   module.def("scenes", [] {
     std::vector<std::string> names;
     for (const auto& [name, title] : list_scenes()) names.push_back(name);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <functional>
+#include <iomanip>
 #include <iostream>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +16,7 @@
 #include "experiments/compare/comparison.hpp"
 #include "experiments/compare/ranking.hpp"
 #include "experiments/compare/stored_comparison.hpp"
+#include "experiments/measure/curve_fit.hpp"
 #include "experiments/page/text.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
@@ -56,29 +57,14 @@ struct BenchPage {
   std::string text;
 };
 
-/// A number of a stage by its name; nothing where it was not measured.
-using StageNumbers =
-    std::function<std::optional<double>(const std::string& stage, const std::string& name)>;
-
-std::string trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \n"), last = text.find_last_not_of(" \n");
-  return first == std::string_view::npos ? "" : std::string(text.substr(first, last - first + 1));
-}
+/// By stage and name: one value for each turn.
+using StageNumbers = std::map<std::string, std::map<std::string, std::vector<double>>>;
 
 /// Words between blanks; a quoted one may hold some.
-std::vector<std::string> words_of(std::string_view line) {
+std::vector<std::string> words_of(const std::string& line) {
   std::vector<std::string> words;
-  bool is_quoted = false, is_begun = false;
-  for (const char c : line) {
-    if (c == '\'') is_quoted = !is_quoted;
-    if (c == '\'' || (c == ' ' && !is_quoted)) {
-      if (c == ' ') is_begun = false;
-      continue;
-    }
-    if (!is_begun) words.emplace_back();
-    is_begun = true;
-    words.back() += c;
-  }
+  std::istringstream stream(line);
+  for (std::string word; stream >> std::quoted(word, '\'');) words.push_back(word);
   return words;
 }
 
@@ -103,7 +89,7 @@ BenchPage read_bench_page(std::string_view file) {
     throw PageError("does not begin with its stages");
   BenchPage page;
   for (const std::string& line : split(file.substr(begin.size(), close - begin.size()), '\n'))
-    if (!trimmed(line).empty()) page.stages.push_back(stage_of(line));
+    if (!words_of(line).empty()) page.stages.push_back(stage_of(line));
   if (page.stages.empty()) throw PageError("has no stages");
   page.text = file.substr(close + end.size());
   try {
@@ -141,8 +127,12 @@ double value_of(const std::string& expression, const StageNumbers& numbers) {
   if (const auto number = parsed<double>(expression)) return *number;
   const size_t colon = expression.find(": ");
   if (colon == std::string::npos) throw PageError("{{" + expression + "}} is no number");
-  return numbers(expression.substr(0, colon), expression.substr(colon + 2))
-      .value_or(std::numeric_limits<double>::quiet_NaN());
+  const std::string stage = expression.substr(0, colon), name = expression.substr(colon + 2);
+  const auto measured = numbers.find(stage);
+  if (measured == numbers.end()) return not_known;  // another program, and there is none
+  const auto values = measured->second.find(name);
+  if (values == measured->second.end()) throw PageError(stage + " measures no '" + name + "'");
+  return quantile(values->second, 0.5);
 }
 
 std::map<std::string, double> comparison_numbers(std::span<const CompareRow> rows) {
@@ -170,7 +160,7 @@ constexpr const char* other_program = "milliseconds.txt";
 
 void run_beside(const std::string& command, const fs::path& folder) {
   const ProgramResult result = run_program("/bin/sh", {"-c", command}, /*seconds=*/3600.0);
-  const std::vector<std::string> words = words_of(trimmed(result.output));
+  const std::vector<std::string> words = words_of(result.output);
   const auto number = words.empty() ? std::nullopt : parsed<double>(words.back());
   if (!result.succeeded() || !number)
     throw Error("bench all: '" + command + "' failed, or its last word is no number");
@@ -184,7 +174,8 @@ void run_beside(const std::string& command, const fs::path& folder) {
 std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path& folder) {
   std::map<std::string, double> numbers;
   if (stage.words.empty()) {
-    numbers["step"] = parsed<double>(trimmed(read_whole_file(folder / other_program))).value();
+    numbers["step"] =
+        parsed<double>(words_of(read_whole_file(folder / other_program)).at(0)).value();
   } else if (stage.words[0] == "bench") {
     for (const Measurement& m :
          read_bench_result(folder / (stage.words.at(1) + ".json")).measurements)
@@ -225,22 +216,15 @@ bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
   return true;
 }
 
-/// Medians over the turns that are there.
+/// Of the turns that are there.
 StageNumbers numbers_of(const BenchPage& page) {
-  std::map<std::string, std::map<std::string, std::vector<double>>> all;
+  StageNumbers all;
   for (const BenchStage& stage : page.stages)
     for (int turn = 1; turn <= stage.turns; ++turn)
       if (const fs::path folder = folder_of(stage, turn); is_there(folder / "measured_by"))
         for (const auto& [name, value] : read_stage(stage, folder))
           all[stage.name][name].push_back(value);
-  return [all = std::move(all)](const std::string& stage,
-                                const std::string& name) -> std::optional<double> {
-    const auto measured = all.find(stage);
-    if (measured == all.end()) return std::nullopt;  // another program, and there is none
-    const auto values = measured->second.find(name);
-    if (values == measured->second.end()) throw PageError(stage + " measures no '" + name + "'");
-    return measurement_of("", name, "", values->second).median;
-  };
+  return all;
 }
 
 /// Every number that stands between {{ and }}, by those words. Throws Error naming an expression

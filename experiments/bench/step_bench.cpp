@@ -33,7 +33,7 @@ namespace {
 /// A step of the driven box, with the problem that it solved.
 struct StepWork {
   const double h;
-  BenchStart start;
+  PreparedRun start;
   TimeStepper stepper;
   ProblemAssembler assembler;
   ContactJudge judge;
@@ -63,7 +63,7 @@ struct DetectionWork {
   std::vector<double> reach;
   std::vector<ContactPoint> contacts;
 
-  DetectionWork(const BenchStart& start, DetectionSettings settings, bool use_cache)
+  DetectionWork(const PreparedRun& start, DetectionSettings settings, bool use_cache)
       : detector(contact_shapes(start.system), (settings.use_cache = use_cache, settings)),
         poses(start.state.pose),
         reach(poses.size(), 0.0) {}
@@ -98,51 +98,36 @@ std::vector<double> samples_of(const Kernel& kernel, const KernelBenchOptions& o
   return samples;
 }
 
-struct StepQuantity {
-  std::string name;
-  const char* unit;
-  std::function<double(const BenchStep&)> value;
-};
-
 /// What is said of a set of steps. `scale` [m/s]: g h.
-std::vector<StepQuantity> quantities(double scale) {
-  const auto counter = [](long DetectionCounters::*count) {
-    return [count](const BenchStep& s) { return static_cast<double>(s.counters.*count); };
-  };
-  const auto column = [](double StepRecord::*value) {
-    return [value](const BenchStep& s) { return s.record.*value; };
-  };
-  std::vector<StepQuantity> all{
-      {"step", "ms", [](const BenchStep& s) { return 1e3 * step_seconds(s.record); }},
-      {"step, CPU", "ms", [](const BenchStep& s) { return 1e3 * s.cpu_seconds; }}};
-  for (const StepColumn& phase : step_phases())
-    all.push_back({phase.phase_word(), "ms",
-                   [&phase](const BenchStep& s) { return 1e3 * (s.record.*phase.value); }});
-  const StepQuantity rest[] = {
-      {"pairs in the broad phase's list", "pairs", counter(&DetectionCounters::candidate_pairs)},
-      {"separated by the cache", "pairs", counter(&DetectionCounters::cached_separations)},
-      {"cached axis proved", "pairs", counter(&DetectionCounters::proved_axes)},
-      {"full searches", "pairs", counter(&DetectionCounters::full_tests)},
-      {"touching pairs", "pairs", counter(&DetectionCounters::manifolds)},
-      {"contacts", "contacts", column(&StepRecord::contacts)},
-      {"active contacts", "contacts", column(&StepRecord::active_contacts)},
-      {"iterations", "iterations", column(&StepRecord::iterations)},
-      {"error rms", "g h", [scale](const BenchStep& s) { return s.record.error_rms / scale; }},
-      {"error of the worst contact", "g h",
-       [scale](const BenchStep& s) { return s.record.error_max / scale; }},
-      {"penetration max", "um", [](const BenchStep& s) { return 1e6 * s.record.penetration_max; }}};
-  all.insert(all.end(), std::begin(rest), std::end(rest));
-  return all;
-}
-
 void add_group(const std::string& group, const std::vector<const BenchStep*>& steps, double scale,
                std::vector<Measurement>& to) {
   if (steps.empty()) return;
-  for (const StepQuantity& quantity : quantities(scale)) {
+  const auto add = [&](const std::string& name, const char* unit, const auto& value) {
     std::vector<double> values;
-    for (const BenchStep* step : steps) values.push_back(quantity.value(*step));
-    to.push_back(measurement_of(group, quantity.name, quantity.unit, std::move(values)));
-  }
+    for (const BenchStep* step : steps) values.push_back(value(*step));
+    to.push_back(measurement_of(group, name, unit, std::move(values)));
+  };
+  const auto column = [&](const std::string& name, const char* unit, double StepRecord::*value,
+                          double factor = 1.0) {
+    add(name, unit, [=](const BenchStep& s) { return factor * (s.record.*value); });
+  };
+  const auto pairs = [&](const char* name, long DetectionCounters::*count) {
+    add(name, "pairs", [=](const BenchStep& s) { return static_cast<double>(s.counters.*count); });
+  };
+  add("step", "ms", [](const BenchStep& s) { return 1e3 * step_seconds(s.record); });
+  add("step, CPU", "ms", [](const BenchStep& s) { return 1e3 * s.cpu_seconds; });
+  for (const StepColumn& phase : step_phases()) column(phase.phase_word(), "ms", phase.value, 1e3);
+  pairs("pairs in the broad phase's list", &DetectionCounters::candidate_pairs);
+  pairs("separated by the cache", &DetectionCounters::cached_separations);
+  pairs("cached axis proved", &DetectionCounters::proved_axes);
+  pairs("full searches", &DetectionCounters::full_tests);
+  pairs("touching pairs", &DetectionCounters::manifolds);
+  column("contacts", "contacts", &StepRecord::contacts);
+  column("active contacts", "contacts", &StepRecord::active_contacts);
+  column("iterations", "iterations", &StepRecord::iterations);
+  column("error rms", "g h", &StepRecord::error_rms, 1.0 / scale);
+  column("error of the worst contact", "g h", &StepRecord::error_max, 1.0 / scale);
+  column("penetration max", "um", &StepRecord::penetration_max, 1e6);
 }
 
 double peak_bytes() {
@@ -177,7 +162,7 @@ void measure_packing(const DepositedBox& box, const ScalingOptions& options, Sca
     point.measured.push_back(measurement_of(group, name, unit, {quantile(values, 0.5)}));
   };
   const double before = peak_bytes(), ns = 1e9 / point.grains;
-  BenchStart start = tiled_start(box, point.nx, point.ny);
+  PreparedRun start = tiled_start(box, point.nx, point.ny);
   Scene scene = box.scene;
   scene.solver.threads = point.threads;
   std::vector<StepRecord> steps;
@@ -266,7 +251,7 @@ std::vector<Measurement> run_kernels(const std::vector<Kernel>& kernels,
   return measurements;
 }
 
-std::vector<BenchStep> measure_steps(const Scene& scene, BenchStart start, long steps,
+std::vector<BenchStep> measure_steps(const Scene& scene, PreparedRun start, long steps,
                                      int threads) {
   Scene threaded = scene;
   threaded.solver.threads = threads;
@@ -410,16 +395,16 @@ DepositedBox deposited_box(const std::string& name, const std::vector<std::strin
   return box;
 }
 
-BenchStart driven_start(const DepositedBox& box) {
-  BenchStart start;
+PreparedRun driven_start(const DepositedBox& box) {
+  PreparedRun start;
   start.system = drive_system(box.scene, box.rain, box.packing, start.state);
   start.memory = box.packing.memory;
   return start;
 }
 
-BenchStart tiled_start(const DepositedBox& box, int nx, int ny) {
+PreparedRun tiled_start(const DepositedBox& box, int nx, int ny) {
   const Scene scene = tiled_scene(box.scene, nx, ny);
-  BenchStart start;
+  PreparedRun start;
   start.system = box_system(scene, tiled_rain(scene, box.rain), BoxStage::settle,
                             box.packing.deposit.lid, &start.state);
   place_copies(scene, box.packing, start.state, start.memory);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "experiments/bench/measurement.hpp"
-#include "experiments/box/packing.hpp"
+#include "experiments/run/run.hpp"
 
 namespace ballast {
 
@@ -29,19 +29,12 @@ struct DepositedBox {
 DepositedBox deposited_box(const std::string& scene, const std::vector<std::string>& overrides,
                            const std::filesystem::path& cache);
 
-/// A system with its state and warm start.
-struct BenchStart {
-  MechanicalSystem system;
-  MotionState state;
-  StepMemory memory;
-};
-
 /// The driven box at its first step.
-BenchStart driven_start(const DepositedBox& box);
+PreparedRun driven_start(const DepositedBox& box);
 
 /// nx by ny copies of the packing side by side (experiments/box/tiles.hpp), in one large box whose
 /// walls stand still (the settling stage: with the raised lid).
-BenchStart tiled_start(const DepositedBox& box, int nx, int ny);
+PreparedRun tiled_start(const DepositedBox& box, int nx, int ny);
 
 /// One kernel: `call` is timed, and does `items` items.
 struct Kernel {
@@ -73,7 +66,8 @@ struct BenchStep {
 
 /// Steps the start `steps` times with the scene's settings and `threads`. Measures of a run that
 /// are not of the step (solid fraction, recording) are not in it.
-std::vector<BenchStep> measure_steps(const Scene& scene, BenchStart start, long steps, int threads);
+std::vector<BenchStep> measure_steps(const Scene& scene, PreparedRun start, long steps,
+                                     int threads);
 
 /// Medians and means by phase of the step, counters and accuracy; once for all steps and once for
 /// those of each state of the wall (active: moves outward; passive: inward; jammed: slower than 2 %

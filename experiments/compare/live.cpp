@@ -55,11 +55,7 @@ void unpack(const std::string& bytes, const std::string& origin, Trajectory& tra
 }
 
 /// Where every backend begins.
-struct Start {
-  MechanicalSystem system;
-  MotionState state;
-  StepMemory memory;
-  std::optional<ControlVolume> control_volume;
+struct Start : PreparedRun {
   std::string key;  ///< of its checkpoint's content
 };
 

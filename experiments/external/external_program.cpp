@@ -28,31 +28,16 @@ namespace {
 
 const std::string asked = "/ballast_request/", answered = "/ballast_answer/";
 
-void add_number(Hdf5Writer& file, const std::string& name, double value) {
-  file.add(name, std::vector<double>{value});
-}
-void add_number(Hdf5Writer& file, const std::string& name, int value) {
-  file.add(name, std::vector<int>{value});
+template <typename Number>
+void add_number(Hdf5Writer& file, const std::string& name, Number value) {
+  file.add(name, std::vector{value});
 }
 
 double read_number(const Hdf5Reader& file, const std::string& name, bool may_be_infinite = false) {
-  const std::vector<double> values = file.read<double>(name);
-  if (values.size() != 1)
-    file.fail(name + " has " + std::to_string(values.size()) + " entries, must have 1");
-  if (std::isnan(values[0]) || (!may_be_infinite && std::isinf(values[0])))
+  const double value = sized(file, name, file.read<double>(name), 1)[0];
+  if (std::isnan(value) || (!may_be_infinite && std::isinf(value)))
     file.fail(name + " is not finite");
-  return values[0];
-}
-
-/// Three per contact.
-std::vector<double> read_impulses(const Hdf5Reader& file, const std::string& name, int contacts) {
-  std::vector<double> values = file.read<double>(name);
-  if (values.size() != 3 * static_cast<std::size_t>(contacts))
-    file.fail(name + " has " + std::to_string(values.size()) + " entries, " +
-              std::to_string(contacts) + " contacts have " + std::to_string(3 * contacts));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i])) file.fail(name + "[" + std::to_string(i) + "] is not finite");
-  return values;
+  return value;
 }
 
 void require_protocol(const Hdf5Reader& file, const std::string& group) {
@@ -290,9 +275,7 @@ ExternalRequest read_request(const std::filesystem::path& path) {
   request.fclib_tolerance = read_number(file, asked + "fclib_tolerance");
   request.max_iterations = file.read_int(asked + "max_iterations");
   request.max_seconds = read_number(file, asked + "max_seconds", true);
-  request.start =
-      own_rows(request.problem,
-               as_eigen(read_impulses(file, asked + "start", request.problem.contact_count())));
+  request.start = read_impulses(file, asked + "start", request.problem);
   return request;
 }
 
@@ -328,9 +311,7 @@ ExternalAnswer read_answer(const std::filesystem::path& path, const ExternalRequ
     file.fail(answered + "status = " + std::to_string(answer.status) + ", expected 0 to " +
               std::to_string(ExternalAnswer::out_of_memory));
   if (!answer.is_solution()) return answer;
-  answer.impulses =
-      own_rows(request.problem,
-               as_eigen(read_impulses(file, answered + "r", request.problem.contact_count())));
+  answer.impulses = read_impulses(file, answered + "r", request.problem);
   // What need not be there.
   if (file.has(answered + "iterations")) answer.iterations = file.read_int(answered + "iterations");
   if (file.has(answered + "residual"))

@@ -385,9 +385,14 @@ void write_solution(const std::filesystem::path& path, const FrictionProblem& pr
   file.commit();
 }
 
-Impulses read_solution(const std::filesystem::path& path, const FrictionProblem& problem) {
+Impulses read_impulses(const Hdf5Reader& file, const std::string& dataset,
+                       const FrictionProblem& problem) {
   const int rows = 3 * problem.contact_count();
-  return own_rows(problem, as_eigen(read_vector(Hdf5Reader(path), "/solution/r", rows)));
+  return own_rows(problem, as_eigen(read_vector(file, dataset, rows)));
+}
+
+Impulses read_solution(const std::filesystem::path& path, const FrictionProblem& problem) {
+  return read_impulses(Hdf5Reader(path), "/solution/r", problem);
 }
 
 }  // namespace ballast

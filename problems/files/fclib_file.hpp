@@ -85,8 +85,11 @@ struct StoredSolution {
 void write_solution(const std::filesystem::path& file, const FrictionProblem& problem,
                     const StoredSolution& solution);
 
-/// The impulses of a file with /solution/r, whoever wrote it. Throws Error: none there,
-/// of another number of contacts, not finite.
+/// The impulses of a dataset, three a contact. Throws Error: none there, of another number of
+/// contacts, not finite.
+Impulses read_impulses(const Hdf5Reader& file, const std::string& dataset,
+                       const FrictionProblem& problem);
+/// The same of /solution/r, whoever wrote the file.
 Impulses read_solution(const std::filesystem::path& file, const FrictionProblem& problem);
 
 /// The values of a dataset, of which there must be so many. Throws Error.

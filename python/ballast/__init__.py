@@ -92,7 +92,7 @@ def judge(problem: Problem, r: np.ndarray) -> dict:
     return _ballast.judge(problem._core, r)
 
 
-class Scene:
+class Scene(_Scene):
     """A scene of bodies and walls under way: a name of scenes(), or a TOML file. Grains are
     deposited first, which may take minutes, or taken from the folder `packings`, where they are
     kept: the same that `ballast run` keeps beside its results.
@@ -102,61 +102,9 @@ class Scene:
 
     def __init__(self, name: Path, overrides: Sequence[str] = (),
                  packings: Path = "results/packings"):
-        self._core = _Scene(os.fspath(name), list(overrides), os.fspath(packings))
-
-    def step(self, count: int = 1,
-             callback: Optional[Callable[["Scene", dict], Any]] = None) -> dict:
-        """Steps so often; the last step's record: a number for each column of a run's record.
-        callback(scene, record) comes after each step, and ends the stepping when it is False."""
-        if callback is None:
-            return self._core.step(count, None)
-        return self._core.step(count, lambda _, record: callback(self, record))
-
-    @property
-    def positions(self) -> np.ndarray:
-        """Centres of mass [m], (n, 3)."""
-        return self._core.positions
-
-    @property
-    def rotations(self) -> np.ndarray:
-        """Unit quaternions x, y, z, w, (n, 4)."""
-        return self._core.rotations
-
-    @property
-    def velocities(self) -> np.ndarray:
-        """Of the centres [m/s], (n, 3)."""
-        return self._core.velocities
-
-    @property
-    def spins(self) -> np.ndarray:
-        """Angular velocities in the bodies' frames [rad/s], (n, 3)."""
-        return self._core.spins
-
-    @property
-    def names(self) -> list:
-        """Of the bodies, then of the walls."""
-        return self._core.names
-
-    @property
-    def time(self) -> float:
-        """[s]"""
-        return self._core.time
-
-    @property
-    def h(self) -> float:
-        """Length of a step [s]."""
-        return self._core.h
+        super().__init__(os.fspath(name), list(overrides), os.fspath(packings))
 
     @property
     def problem(self) -> Problem:
         """The friction problem of the last step, a copy."""
-        return Problem(self._core.problem())
-
-    @property
-    def impulses(self) -> np.ndarray:
-        """Its solution r [N s], (n, 3)."""
-        return self._core.impulses
-
-    def set_force(self, name: str, force: Sequence[float]) -> None:
-        """From now on this force [N], world frame, is on that body or driven wall."""
-        self._core.set_force(name, force)
+        return Problem(self.last_problem())

@@ -101,7 +101,7 @@ TEST_CASE("Scaling measures each packing in its own process") {
 
 TEST_CASE("Copies side by side are the packing again and again") {
   const DepositedBox& box = tiny_box();
-  BenchStart one = tiled_start(box, 1, 1), six = tiled_start(box, 3, 2);
+  PreparedRun one = tiled_start(box, 1, 1), six = tiled_start(box, 3, 2);
   REQUIRE(six.system.grain_count == 6 * 12);
   REQUIRE(six.state.pose.size() == six.system.bodies.size());
   CHECK(six.system.first_driven_wall() == -1);
@@ -118,7 +118,7 @@ TEST_CASE("Copies side by side are the packing again and again") {
     if (wall == wall_y_min || wall == wall_y_max) inner += 3;
   }
   CHECK(six.memory.contacts.size() == 6 * one.memory.contacts.size() - inner);
-  const auto deepest = [&](BenchStart& start) {
+  const auto deepest = [&](PreparedRun& start) {
     TimeStepper stepper(start.system, box.scene, -1);
     double depth = 0.0;
     for (int k = 0; k < 5; ++k)
@@ -135,7 +135,7 @@ TEST_CASE("A scene without grains has no packing to measure") {
 }
 
 TEST_CASE("The driven box begins as it was deposited, behind a wall that is driven") {
-  const BenchStart start = driven_start(tiny_box());
+  const PreparedRun start = driven_start(tiny_box());
   CHECK(start.system.grain_count == 12);
   CHECK(start.system.first_driven_wall() >= 0);
   CHECK(start.memory.contacts.size() == start.memory.impulses.size());

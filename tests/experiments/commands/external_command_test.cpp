@@ -113,7 +113,7 @@ TEST_CASE("whatever a program does is its row, and nothing is left running") {
       {"crashes", "crashed", "signal 11"},
       {"half", "unsolved", "truncated"},
       {"silent", "unsolved", "no such file"},
-      {"nan", "unsolved", "/ballast_answer/r[0] is not finite"},
+      {"nan", "unsolved", "/ballast_answer/r[0] = nan is not finite"},
       {"floods", "timeout", ""},
       {"chatty", "solved", ""},
       {"forks", "solved", ""},

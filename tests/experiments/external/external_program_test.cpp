@@ -230,7 +230,7 @@ TEST_CASE("What is no answer is refused with the reason") {
     other.problem = make_known_solution({.bodies = 3, .contacts = 4}).problem;
     a.answer.impulses.setZero(other.problem.row_count());
     write_answer(a.file, other, a.answer);
-    CHECK_THAT(a.refusal(), Contains("12 entries, 12 contacts have 36"));
+    CHECK_THAT(a.refusal(), Contains("12 entries, must have 36"));
   }
   SECTION("half a file") {
     write_answer(a.file, a.request, a.answer);
