@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 
@@ -156,29 +157,6 @@ constexpr size_t widest_in_text = 8;
 /// Cells of more letters must not become towers of single words.
 constexpr size_t longest_in_narrow_cell = 40;
 
-struct Tag {
-  std::string open, close;
-  bool operator==(const Tag&) const = default;
-};
-
-/// Tags around a run, the outermost first.
-std::vector<Tag> tags_of(const Span& span) {
-  static const std::pair<Styles, Tag> tags[] = {{strong, {"<b>", "</b>"}},
-                                                {note, {"<span class=\"note\">", "</span>"}},
-                                                {good, {"<span class=\"met\">", "</span>"}},
-                                                {bad, {"<span class=\"missed\">", "</span>"}},
-                                                {code, {"<code>", "</code>"}},
-                                                {symbol, {"<i>", "</i>"}},
-                                                {subscript, {"<sub>", "</sub>"}},
-                                                {superscript, {"<sup>", "</sup>"}}};
-  std::vector<Tag> result;
-  if (!span.link.empty())
-    result.push_back({"<a href=\"" + escaped_html(span.link) + "\">", "</a>"});
-  for (const auto& [style, tag] : tags)
-    if (span.styles & style) result.push_back(tag);
-  return result;
-}
-
 std::string row_of(const Table& table, const std::vector<Text>& cells, const std::string& tag) {
   std::string html = "<tr>";
   for (size_t c = 0; c < cells.size(); ++c) {
@@ -279,25 +257,25 @@ std::string escaped_html(std::string_view text) {
 }
 
 std::string html_of(const Text& text) {
+  // around a run, the innermost first
+  static constexpr std::tuple<Styles, const char*, const char*> tags[] = {
+      {superscript, "<sup>", "</sup>"},
+      {subscript, "<sub>", "</sub>"},
+      {symbol, "<i>", "</i>"},
+      {code, "<code>", "</code>"},
+      {bad, "<span class=\"missed\">", "</span>"},
+      {good, "<span class=\"met\">", "</span>"},
+      {note, "<span class=\"note\">", "</span>"},
+      {strong, "<b>", "</b>"}};
   std::string html;
-  std::vector<Tag> open;
-  // closes tags down to the first `kept`
-  const auto close = [&](size_t kept) {
-    for (; open.size() > kept; open.pop_back()) html += open.back().close;
-  };
   for (const Span& span : text.spans) {
-    const std::vector<Tag> tags = tags_of(span);
-    const auto common = std::mismatch(open.begin(), open.end(), tags.begin(), tags.end());
-    close(static_cast<size_t>(common.first - open.begin()));
-    for (size_t k = open.size(); k < tags.size(); ++k) {
-      html += tags[k].open;
-      open.push_back(tags[k]);
-    }
     std::string words = escaped_html(span.text);
     replace_all(words, "\n", "<br>");
+    for (const auto& [style, open, close] : tags)
+      if (span.styles & style) words = open + words + close;
+    if (!span.link.empty()) words = "<a href=\"" + escaped_html(span.link) + "\">" + words + "</a>";
     html += words;
   }
-  close(0);
   return html;
 }
 
