@@ -1,7 +1,14 @@
 // A plan in TOML.
 
 #include "experiments/plans/plan.hpp"
+#include "experiments/run/run.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
+
+/// As the program's, but for the name of the solver: the list of solvers would bring all of them.
+ballast::ResolvedScene ballast::resolve_run(const std::string& scene,
+                                            const std::vector<std::string>& overrides) {
+  return resolve_scene(find_scene(scene), overrides);
+}
 
 using namespace ballast;
 
