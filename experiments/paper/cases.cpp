@@ -143,11 +143,6 @@ std::vector<Groups> ranges_of(const Groups& groups, bool is_frequency) {
   return ranges;
 }
 
-/// Of Delta x_max and v_max over a range.
-struct Exponents {
-  std::map<double, double> rise, speed;  ///< by seed
-};
-
 SampleMean mean_of(const std::map<double, double>& by_seed) {
   std::vector<double> values;
   for (const auto& [seed, value] : by_seed) values.push_back(value);
@@ -167,7 +162,7 @@ page::Text change_words(const std::map<double, double>& from, const std::map<dou
 void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperSection& section) {
   page::Table table = page::words_table("exponents");
   const bool is_frequency = what.exponent_along == "frequency";
-  std::map<std::string, Exponents> reference;  // of the first case, by range
+  std::map<std::string, std::map<double, double>> reference;  // of the first case, by range
   for (const Case& row : cases) {
     bool is_first = true;
     for (const Groups& groups : ranges_of(row.groups, is_frequency)) {
@@ -175,18 +170,17 @@ void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperS
         return exponents_of_samples(groups, what.exponent_along, measure,
                                     is_frequency ? groups.size() : 3);
       };
-      const Exponents seen{exponents("rise"), exponents("speed_in")};
+      const std::map<double, double> rise = exponents("rise");
       const std::string over = groups.front().label + (groups.size() == 2 ? " and " : " to ") +
                                groups.back().label + unit_behind(what.along);
-      if (&row == &cases.front()) reference[over] = seen;
+      if (&row == &cases.front()) reference[over] = rise;
       const page::Values words{{"case", row.name},
                                {"range", over},
-                               {"rise", words_with_interval(mean_of(seen.rise))},
-                               {"speed", words_with_interval(mean_of(seen.speed))},
-                               {"change", change_words(reference[over].rise, seen.rise)},
-                               {"speed_change", change_words(reference[over].speed, seen.speed)}};
+                               {"rise", words_with_interval(mean_of(rise))},
+                               {"speed", words_with_interval(mean_of(exponents("speed_in")))},
+                               {"change", change_words(reference[over], rise)}};
       table.rows.push_back(
-          {row.name, over, std::to_string(seen.rise.size()), words.at("rise"), words.at("speed")});
+          {row.name, over, std::to_string(rise.size()), words.at("rise"), words.at("speed")});
       section.keep(section.id + ".exponents", words);
       if (std::exchange(is_first, false)) section.report(section.id + ".claim", words);
     }

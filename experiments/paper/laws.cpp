@@ -110,19 +110,19 @@ Curve band(const OneCurve& all, const Low& low, const High& high) {
 }
 
 /// Means of C along X, their bars the error that the fit gives them.
-Curve curve_of(const OneCurve& all, const std::vector<CurvePoint>& shown, const char* title,
-               Ink ink, MarkShape shape) {
+Curve curve_of(const OneCurve& all, const std::vector<CurvePoint>& shown, const Series& series) {
   Points points;
   for (const CurvePoint& point : shown) {
     SampleMean mean = point.group.mean("prefactor");
     mean.error = mean.mean * all.between.deviation / std::sqrt(1.0 * mean.samples);
     points.add(to_mm * point.x, mean);
   }
-  return curve_of(points, page::marked(title), ink, shape);
+  return curve_of(points, page::marked(series.title), series.ink, series.shape);
 }
 
-/// `aside`: points that are not of the curve.
-Panel prefactor_panel(const OneCurve& all, const std::vector<CurvePoint>& aside) {
+/// `small_loads` and `light`: points that are not of the curve.
+Panel prefactor_panel(const OneCurve& all, const std::vector<CurvePoint>& small_loads,
+                      const std::vector<CurvePoint>& light) {
   Panel panel{.x_label = page::marked("right side of Eq. 3 without *C*,  *X*  (mm)"),
               .y_label = page::marked("*C* = Δ*x*~max~ / *X*"),
               .log_x = true,
@@ -137,22 +137,17 @@ Panel prefactor_panel(const OneCurve& all, const std::vector<CurvePoint>& aside)
       all, [&](double x) { return all.curve.at(x) / x; }, "quadratic in ln X", Ink::black));
   panel.curves.push_back(along(
       all, [&](double x) { return all.line.at(x) / x; }, "power law", Ink::grey, true));
-  const auto of_series = [](const std::vector<CurvePoint>& points, size_t series) {
-    std::vector<CurvePoint> chosen;
-    std::ranges::copy_if(points, std::back_inserter(chosen),
-                         [&](const CurvePoint& point) { return point.series == series; });
-    return chosen;
+  const auto add = [&](const std::vector<CurvePoint>& points, const Series& series) {
+    if (!points.empty()) panel.curves.push_back(curve_of(all, points, series));
   };
-  for (size_t k = 0; k < all_series.size(); ++k)
-    if (const auto points = of_series(all.points, k); !points.empty())
-      panel.curves.push_back(
-          curve_of(all, points, all_series[k].title, all_series[k].ink, all_series[k].shape));
-  for (size_t k = 0; k <= all_series.size(); ++k)
-    if (const auto points = of_series(aside, k); !points.empty())
-      panel.curves.push_back(
-          k < all_series.size()
-              ? curve_of(all, points, "f~max~  < 2 m g", Ink::grey, MarkShape::circle)
-              : curve_of(all, points, light_wall.title, light_wall.ink, light_wall.shape));
+  for (size_t k = 0; k < all_series.size(); ++k) {
+    std::vector<CurvePoint> points = all.points;
+    std::erase_if(points, [&](const CurvePoint& point) { return point.series != k; });
+    add(points, all_series[k]);
+  }
+  add(small_loads,
+      {.name = "small loads", .rows = "", .ink = Ink::grey, .title = "f~max~  < 2 m g"});
+  add(light, light_wall);
   panel.curves.push_back(along(
       all, [](double) { return paper::prefactor; }, "the paper’s 0.01", Ink::vermilion));
   return panel;
@@ -446,17 +441,17 @@ void fill_curve(PaperData& data, PaperSection& section) {
     });
   const OneCurve all = one_curve(larger);
   if (!all.is_known()) return;
-  std::vector<CurvePoint> aside = points_beside("curve.small_loads", all, groups, section);
+  const auto small_loads = points_beside("curve.small_loads", all, groups, section);
   larger.push_back(data.settings(light_wall.rows));
-  for (CurvePoint& point : points_beside("curve.light_wall", all, larger, section))
-    aside.push_back(std::move(point));
+  const auto light = points_beside("curve.light_wall", all, larger, section);
   const page::Values words = words_for(all);
-  section.draw("fig11b", {.height = 480, .panels = {prefactor_panel(all, aside)}}, words);
+  section.draw("fig11b", {.height = 480, .panels = {prefactor_panel(all, small_loads, light)}},
+               words);
   section.text.push_back(page::words("curve.theory", words));
   section.add(along_table(all));
   const double half = student_t95(all.between.degrees_of_freedom) * all.offset_error;
   Found grouping = Found::about(all.largest_offset, half, all.curve_misfit.p);
-  grouping.is_whole = aside.empty();
+  grouping.is_whole = small_loads.empty() && light.empty();
   section.claim("curve.grouping", words, PaperRange::about(0.0, 0.1), grouping);
   section.report("curve.shape", words);
   section.report("curve.bend", words);

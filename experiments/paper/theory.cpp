@@ -63,19 +63,23 @@ class LogFits {
   PooledError error_;
 };
 
+/// What the theory has, F/(m g) and the ratio of masses, and `more`.
+std::vector<Eigen::VectorXd> theory_and(RunMeasure more, const LogFits& all) {
+  const Eigen::VectorXd force = all.log("push_over_weight");
+  return {force, all.log("prefactor_theory") - 2.0 * force, all.log(more)};
+}
+
 /// Whether the load at which a jam gives way tells what the theory's factor goes with: over all
 /// settings of which it is known.
 void report_start(PaperData& data, PaperSection& section) {
   const LogFits all(data.settings("slowest; deposits; loads; shapes; sizes; reading; preparation"),
                     {"prefactor_theory", "yield_over_push"});
   if (!all.is_known(6)) return;
-  const Eigen::VectorXd force = all.log("push_over_weight"),
-                        mass = all.log("prefactor_theory") - 2.0 * force;
-  const WeightedFit start = all.fit({force, mass, all.log("yield_over_push")});
+  const WeightedFit start = all.fit(theory_and("yield_over_push", all));
   section.report("theory.start", {{"points", std::to_string(all.size())},
                                   {"start", all.exponent(start, 3)},
                                   {"misfit", all.misfit(start)},
-                                  {"with_x", all.misfit(all.fit({force, mass, all.log("eq3")}))}});
+                                  {"with_x", all.misfit(all.fit(theory_and("eq3", all)))}});
 }
 
 /// By how much C is more than the theory's, frequency by frequency, in every deposit that was
@@ -120,9 +124,10 @@ void fill_theory(PaperData& data, PaperSection& section) {
   report_factors(data, section);
   const LogFits all(data.settings(one_kind_of_grains("")), {"prefactor_theory"});
   if (!all.is_known(6)) return;
-  const Eigen::VectorXd force = all.log("push_over_weight"),
-                        mass = all.log("prefactor_theory") - 2.0 * force;
-  const WeightedFit free = all.fit({force, mass}), more = all.fit({force, mass, all.log("eq3")});
+  std::vector<Eigen::VectorXd> columns = theory_and("eq3", all);
+  const WeightedFit more = all.fit(columns);
+  columns.pop_back();
+  const WeightedFit free = all.fit(columns);
   section.report("theory.free", {{"points", std::to_string(all.size())},
                                  {"force", all.exponent(more, 1)},
                                  {"mass", all.exponent(more, 2)},

@@ -16,7 +16,7 @@ import functools
 import os
 import pathlib
 import sys
-from typing import Any, Callable, Optional, Sequence
+from typing import Optional, Sequence
 
 try:
     from . import _ballast
