@@ -201,17 +201,20 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
                {"again", again(data, rows[0])}};
   // `viewable`: cases whose bodies are known
   json["columns"] = compare_columns();
-  for (const char* name : {"rows", "viewable"}) json[name] = Json::array();
-  for (const char* name : {"words", "histories"}) json[name] = Json::object();
+  json["rows"] = Json::array();
   const size_t points = std::clamp<size_t>(most_points / rows.size(), 8, 100);
   std::set<std::string> viewable;
+  std::map<std::string, std::string> words;
+  std::map<std::string, Json> histories;
   for (const CompareRow& row : rows) {
     json["rows"].push_back(cells_of(row));
-    json["words"][row.case_name] = shell_word(row.word.empty() ? row.case_name : row.word);
+    words[row.case_name] = shell_word(row.word.empty() ? row.case_name : row.word);
     if (row.can_view) viewable.insert(row.case_name);
-    if (row.history.size() > 1) json["histories"][row.key] = history_json(row, points);
+    if (row.history.size() > 1) histories[row.key] = history_json(row, points);
   }
   json["viewable"] = viewable;
+  json["words"] = words;
+  json["histories"] = histories;
   page::Answers answers{.are_given = true};
   answers.data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (const char* name : modules) answers.modules.push_back(comparison_file(name));

@@ -81,7 +81,7 @@ constexpr std::array replay_modules = {
 
 /// An element with modules whose names are their own.
 std::string script_of(const std::string& modules) {
-  return "<script>\n(() => {\n\"use strict\";\n" + modules + "})();\n</script>\n";
+  return "<script>\n(async () => {\n\"use strict\";\n" + modules + "})();\n</script>\n";
 }
 
 /// Five digits are more than a chart shows; JSON has no NaN.
@@ -139,6 +139,12 @@ std::string for_script(std::string json) {
   return json;
 }
 
+/// Bytes that the page's scripts unpack: unpacked() of answers/elements.js.
+std::string packed(const std::string& id, const std::string& bytes) {
+  return "<script type=\"text/plain\" id=\"" + id + "\">" + base64(deflated(bytes, 9)) +
+         "</script>\n";
+}
+
 /// The page's own data, and the curves of its figures as "pictures".
 std::string page_data_json(const Page& page) {
   Json data = page.answers.data.empty() ? Json::object() : Json::parse(page.answers.data);
@@ -149,7 +155,7 @@ std::string page_data_json(const Page& page) {
         if (const auto* picture = std::get_if<Picture>(&block))
           pictures.push_back(figure_json(picture->plot));
   }
-  return for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return data.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Tables of more columns may be wider than the text.
@@ -225,9 +231,7 @@ struct HtmlBlocks {
       html += "<figcaption>" + html_of(replay.caption) + "</figcaption>\n";
     html += "<script type=\"application/json\" id=\"replay-head\">" + for_script(replay.head) +
             "</script>\n";
-    for (const auto& [name, bytes] : replay.parts)
-      html += "<script type=\"text/plain\" id=\"replay-" + name + "\">" +
-              base64(deflated(bytes, 9)) + "</script>\n";
+    for (const auto& [name, bytes] : replay.parts) html += packed("replay-" + name, bytes);
     std::string modules = answers_file("elements.js") + answers_file("choice.js");
     for (const char* name : replay_modules) modules += replay_file(name);
     return html + script_of(modules) + "</figure>\n";
@@ -241,9 +245,9 @@ std::string answers_html(const Page& page) {
   std::string modules;
   for (const char* name : common_modules) modules += answers_file(name);
   for (const std::string& module : page.answers.modules) modules += module;
-  return "<style>\n" + answers_file("answers.css") +
-         "</style>\n<script type=\"application/json\" id=\"page-data\">" + page_data_json(page) +
-         "</script>\n<script>\n" + chart_library() + "</script>\n" + script_of(modules);
+  return "<style>\n" + answers_file("answers.css") + "</style>\n" +
+         packed("page-data", page_data_json(page)) + "<script>\n" + chart_library() +
+         "</script>\n" + script_of(modules);
 }
 
 }  // namespace

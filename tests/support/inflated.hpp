@@ -1,5 +1,5 @@
 #pragma once
-// What deflated() packed, unpacked by zlib: production only packs.
+// What deflated() and base64() packed, unpacked: production only packs.
 
 #include <zlib.h>
 
@@ -18,6 +18,24 @@ inline std::string inflated(std::string_view bytes) {
                      reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) == Z_OK);
   text.resize(size);
   return text;
+}
+
+/// The bytes that base64 letters stand for.
+inline std::string from_base64(std::string_view letters) {
+  std::string bytes;
+  unsigned held = 0;
+  int bits = 0;
+  for (const char letter : letters) {
+    if (letter == '=') break;
+    const size_t value =
+        std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/")
+            .find(letter);
+    REQUIRE(value != std::string_view::npos);
+    held = held << 6 | static_cast<unsigned>(value);
+    bits += 6;
+    if (bits >= 8) bytes += static_cast<char>(held >> (bits -= 8) & 0xff);
+  }
+  return bytes;
 }
 
 }  // namespace ballast

@@ -8,8 +8,15 @@
 #include <vector>
 
 #include "tests/catch.hpp"
+#include "tests/support/inflated.hpp"
 
 namespace ballast {
+
+/// What the page's scripts know: JSON.
+inline std::string page_data(const std::string& page) {
+  const size_t begin = page.find('>', page.find("id=\"page-data\"")) + 1;
+  return inflated(from_base64(page.substr(begin, page.find("</script>", begin) - begin)));
+}
 
 /// Elements are closed in the order they were opened (void elements and <x/> aside). Returns the
 /// first complaint.

@@ -17,10 +17,10 @@ function holder_of(id) {
 }
 
 /// Rows of "What must not happen" whose case or backend is not chosen are hidden.
+const row_of = new Map(rows.map((row) => [row.case + "\n" + row.solver, row]));
 function filter_failures() {
   for (const line of document.querySelectorAll("#failures tbody tr")) {
-    const [name, solver] = [...line.cells].map((cell) => cell.textContent);
-    const row = rows.find((one) => one.case === name && one.solver === solver);
+    const row = row_of.get(line.cells[0].textContent + "\n" + line.cells[1].textContent);
     line.hidden = row !== undefined && !chosen.has(row);
   }
 }
@@ -29,9 +29,13 @@ const bar = asks(), holders = new Map();
 document.querySelector("#backends").before(bar.element);
 for (const [id] of sections) holders.set(id, holder_of(id));
 
+/// Of many rows, every section is seen before the next is made.
+const painted = () => rows.length > 10000 &&
+  new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+
 let drawn = null;
 const shown = new Map();
-function refresh_all() {
+async function refresh_all() {
   refresh_details();
   const asked = ["tolerance", "start", "from", "to", "find", "against", "family", "case", "without",
                  "without_family"].map((name) => choice.list(name).join("|")).join("&");
@@ -49,8 +53,11 @@ function refresh_all() {
     holder.replaceChildren(...parts.map((part) => part.element ?? part));
     shown.set(id, parts.filter((part) => part.draw));
     shown.get(id).forEach((chart) => chart.draw());
+    if (focus) holder.querySelector(`[name="${focus}"]`)?.focus();
+    const wait = painted();
+    if (wait) await wait;
+    if (asked !== drawn) return;  // something else has been chosen meanwhile
   }
-  if (focus) document.querySelector(`.live [name="${focus}"]`)?.focus();
 }
 refresh_all();
 choice.changed(refresh_all);

@@ -45,3 +45,12 @@ async function copy(text, pressed) {
   pressed.textContent = "copied";
   setTimeout(() => { pressed.textContent = words; }, 1500);
 }
+
+/// What an element holds in base64 and deflated, as a Response. The element is empty then.
+async function unpacked(holder) {
+  if (!window.DecompressionStream) throw new Error("this browser is too old to unpack the data");
+  const letters = atob(holder.textContent), bytes = new Uint8Array(letters.length);
+  for (let k = 0; k < bytes.length; ++k) bytes[k] = letters.charCodeAt(k);
+  holder.textContent = "";
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate")));
+}

@@ -3,14 +3,9 @@
 
 const part = (id) => document.getElementById("replay-" + id);
 
-// The bytes of a part: base64, then deflate.
 async function partBytes(name) {
   const holder = part(name);
-  if (!holder) return new Uint8Array(0);
-  const packed = Uint8Array.from(atob(holder.textContent), (c) => c.charCodeAt(0));
-  holder.textContent = "";
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  return new Uint8Array(holder ? await (await unpacked(holder)).arrayBuffer() : 0);
 }
 
 // Numbers of a typed array's kind: all their first bytes, then all second ones, ...

@@ -242,7 +242,6 @@ class Replay {
 
 (async () => {
   try {
-    if (!window.DecompressionStream) throw new Error("this browser is too old to unpack the data");
     if (!document.createElement("canvas").getContext("webgl2"))
       throw new Error("this browser gives no WebGL 2");
     const replay = new Replay(await Data.load());

