@@ -303,8 +303,11 @@ page::Replay pack_view(const ViewData& view, size_t most_bytes) {
   // poses may take two thirds of what is left, where there are contacts too
   const size_t room = most_bytes > still_bytes ? most_bytes - still_bytes : 0,
                pose_room = has_contacts ? room / 3 * 2 : room;
+  // A moving grain's pose takes at least two bytes: of far too many frames, not all are tried.
+  size_t stride = 1;
+  while (view.frames.size() / stride * view.system.grain_count * 2 > pose_room) stride *= 2;
   std::vector<size_t> chosen;
-  for (size_t stride = 1;; stride *= 2) {
+  for (;; stride *= 2) {
     chosen = thinned(view.frames.size(), stride);
     replay.parts.resize(still_parts);
     pack_poses(view, chosen, head, replay);
@@ -312,10 +315,10 @@ page::Replay pack_view(const ViewData& view, size_t most_bytes) {
     if (chosen.size() <= 2 || page_bytes(replay, still_parts) <= pose_room) break;
   }
   const size_t pose_parts = replay.parts.size(), pose_bytes = page_bytes(replay, still_parts);
-  for (size_t stride = 1; has_contacts; stride *= 2) {
+  for (size_t every = 1; has_contacts; every *= 2) {
     replay.parts.resize(pose_parts);
-    pack_contacts(view, chosen, stride, head, replay);
-    if (stride >= chosen.size() || pose_bytes + page_bytes(replay, pose_parts) <= room) break;
+    pack_contacts(view, chosen, every, head, replay);
+    if (every >= chosen.size() || pose_bytes + page_bytes(replay, pose_parts) <= room) break;
   }
   replay.head = head.dump();
   return replay;
