@@ -7,11 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <unistd.h>
-
 #include "experiments/record/record_file.hpp"
 #include "experiments/run/run_folder.hpp"
-#include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
@@ -149,14 +146,8 @@ bool takes(const Selection& selection, const RunRow& row) {
 }  // namespace
 
 std::vector<PlannedRun> read_campaign(const CampaignSettings& settings) {
-  fs::path file = settings.plan;
-  if (file.empty()) {
-    // A plan is a file, so that its scenes have a place.
-    file = fs::temp_directory_path() / printed("ballast-campaign-%d.toml", getpid());
-    write_whole_file(file, campaign_plan());
-  }
-  Plan plan = read_plan(file);
-  if (settings.plan.empty()) fs::remove(file);
+  Plan plan =
+      settings.plan.empty() ? plan_of(campaign_plan(), "campaign.toml") : read_plan(settings.plan);
   // Only those that are wanted: an override may fit no scene but theirs.
   if (!settings.only.empty()) plan.runs = select(plan, settings.only);
   for (PlannedRun& run : plan.runs) {

@@ -209,8 +209,10 @@ void validate(Plan& plan, const std::string& origin) {
 
 }  // namespace
 
-Plan read_plan(const fs::path& file) {
-  const toml::table raw = load_toml(file);
+Plan read_plan(const fs::path& file) { return plan_of(read_toml(file), file); }
+
+Plan plan_of(const std::string& toml, const fs::path& file) {
+  const toml::table raw = parse_toml(toml, file);
   toml::table resolved;
   TomlTable root(file.string(), raw, resolved);
   Plan plan;

@@ -33,6 +33,8 @@ struct Plan {
 /// Reads a plan file (docs/manual/plans.md). Throws SceneFileError naming file, key and value: also
 /// for a run that is not a valid scene.
 Plan read_plan(const std::filesystem::path& file);
+/// The same of a text that was read.
+Plan plan_of(const std::string& toml, const std::filesystem::path& file);
 
 /// The runs of the plan that a shell's pattern names; all of them where it is empty. Throws
 /// SceneFileError when there are none.

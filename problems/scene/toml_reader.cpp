@@ -322,25 +322,32 @@ std::string TomlTable::place_of(const toml::node* node) const {
   return file_;
 }
 
-toml::table load_toml(const std::filesystem::path& file, std::span<const std::string> overrides) {
+std::string read_toml(const std::filesystem::path& file) {
   if (is_folder(file))
     throw SceneFileError(file.string() + ": is a folder, expected a scene in TOML");
-  std::string content;
   try {
-    content = read_whole_file(file);
+    return read_whole_file(file);
   } catch (const Error& error) {
     throw SceneFileError(error.what());
   }
-  if (const auto line = line_too_deep(content))
+}
+
+toml::table load_toml(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_toml(read_toml(file), file, overrides);
+}
+
+toml::table parse_toml(const std::string& text, const std::filesystem::path& file,
+                       std::span<const std::string> overrides) {
+  if (const auto line = line_too_deep(text))
     throw SceneFileError(file.string() + ':' + std::to_string(*line) + ": " + too_deep);
   toml::table table;
   try {
-    table = toml::parse(content, file.string());
+    table = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     throw SceneFileError(file.string() + ':' + std::to_string(error.source().begin.line) +
                          ": not valid TOML: " + std::string(error.description()));
   }
-  for (const std::string& text : overrides) apply(file, text, table);
+  for (const std::string& set : overrides) apply(file, set, table);
   return table;
 }
 

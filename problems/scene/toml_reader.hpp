@@ -77,6 +77,11 @@ using ValuePlace = std::variant<double*, int*, std::uint64_t*, bool*, std::strin
 /// quotes within quotes. Throws SceneFileError.
 toml::table load_toml(const std::filesystem::path& file,
                       std::span<const std::string> overrides = {});
+/// The file's text. Throws SceneFileError.
+std::string read_toml(const std::filesystem::path& file);
+/// load_toml() of a text that was read.
+toml::table parse_toml(const std::string& text, const std::filesystem::path& file,
+                       std::span<const std::string> overrides = {});
 
 /// A whole document written in one way only: sorted keys, shortest digits that read back to the
 /// same double. Same table, same text.
