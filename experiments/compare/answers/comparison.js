@@ -16,8 +16,10 @@ function holder_of(id) {
   return holder;
 }
 
-/// Rows of "What must not happen" whose case or backend is not chosen are hidden.
+/// A row of each case and backend.
 const row_of = new Map(rows.map((row) => [row.case + "\n" + row.solver, row]));
+
+/// Rows of "What must not happen" whose case or backend is not chosen are hidden.
 function filter_failures() {
   for (const line of document.querySelectorAll("#failures tbody tr")) {
     const row = row_of.get(line.cells[0].textContent + "\n" + line.cells[1].textContent);
