@@ -1,7 +1,7 @@
-# ballast_hdf5: HDF5 as what links it needs it. Debian's shared one brings 31 more libraries, which take
-# longer to load than all else that the program loads: programs take the static one into themselves.
-# It is not made for modules and shared libraries.
-cmake_path(REPLACE_EXTENSION HDF5_C_LIBRARY_hdf5 LAST_ONLY a OUTPUT_VARIABLE static_hdf5)
+# ballast_hdf5: the HDF5 library. Debian's shared one brings 31 other libraries, whose loading takes
+# half of a program's start, so programs hold the static one. That cannot be in a shared library:
+# the Python module has the shared one.
+string(REGEX REPLACE "[.]so$" ".a" static_hdf5 "${HDF5_C_LIBRARY_hdf5}")
 find_library(BALLAST_SZIP sz)
 find_package(ZLIB)
 add_library(ballast_hdf5 INTERFACE)
