@@ -22,6 +22,7 @@ inline std::string inflated(std::string_view bytes) {
 
 /// The bytes that base64 letters stand for.
 inline std::string from_base64(std::string_view letters) {
+  REQUIRE(letters.size() % 4 == 0);
   std::string bytes;
   unsigned held = 0;
   int bits = 0;

@@ -1,10 +1,12 @@
 #include "experiments/export/state_export.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "geometry/shape/mass_properties.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "platform/text.hpp"
+#include "tests/support/inflated.hpp"
 #include "tests/support/page_sample.hpp"
 #include "tests/support/sample_run.hpp"
 
@@ -12,25 +14,6 @@ using namespace ballast;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string decode_base64(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  REQUIRE(text.size() % 4 == 0);
-  for (size_t at = 0; at < text.size(); at += 4) {
-    std::uint32_t group = 0;
-    int given = 0;
-    for (size_t k = 0; k < 4; ++k) {
-      const size_t digit = digits.find(text[at + k]);
-      if (text[at + k] != '=')
-        REQUIRE((digit != std::string::npos && given == static_cast<int>(k)));
-      given += text[at + k] != '=';
-      group = group << 6 | (text[at + k] == '=' ? 0u : static_cast<std::uint32_t>(digit));
-    }
-    for (int k = 0; k < given - 1; ++k) bytes += static_cast<char>(group >> (16 - 8 * k));
-  }
-  return bytes;
-}
 
 /// A file for ParaView, which is well-formed.
 std::string read_xml(const fs::path& file) {
@@ -47,13 +30,13 @@ std::vector<Number> vtk_array(const std::string& xml, const std::string& name) {
   const std::string tag = printed("<DataArray type=\"%s\" Name=\"%s\"", type, name.c_str());
   REQUIRE(xml.find(tag) != std::string::npos);
   const size_t begin = xml.find('>', xml.find(tag)) + 1;
-  const std::string bytes = decode_base64(xml.substr(begin, xml.find('<', begin) - begin));
+  const std::string bytes = from_base64(xml.substr(begin, xml.find('<', begin) - begin));
   std::uint64_t length = 0;
   REQUIRE(bytes.size() >= sizeof length);
   std::memcpy(&length, bytes.data(), sizeof length);
   REQUIRE(bytes.size() == sizeof length + length);
   std::vector<Number> values(length / sizeof(Number));
-  std::memcpy(values.data(), bytes.data() + sizeof length, length);
+  std::copy_n(bytes.data() + sizeof length, length, reinterpret_cast<char*>(values.data()));
   return values;
 }
 
