@@ -3,6 +3,7 @@
 
 #include <zlib.h>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -21,20 +22,21 @@ inline std::string inflated(std::string_view bytes) {
 }
 
 /// The bytes that base64 letters stand for.
-inline std::string from_base64(std::string_view letters) {
-  REQUIRE(letters.size() % 4 == 0);
+inline std::string from_base64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
-  unsigned held = 0;
-  int bits = 0;
-  for (const char letter : letters) {
-    if (letter == '=') break;
-    const size_t value =
-        std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/")
-            .find(letter);
-    REQUIRE(value != std::string_view::npos);
-    held = held << 6 | static_cast<unsigned>(value);
-    bits += 6;
-    if (bits >= 8) bytes += static_cast<char>(held >> (bits -= 8) & 0xff);
+  REQUIRE(text.size() % 4 == 0);
+  for (size_t at = 0; at < text.size(); at += 4) {
+    std::uint32_t group = 0;
+    int given = 0;
+    for (size_t k = 0; k < 4; ++k) {
+      const size_t digit = digits.find(text[at + k]);
+      if (text[at + k] != '=')
+        REQUIRE((digit != std::string::npos && given == static_cast<int>(k)));
+      given += text[at + k] != '=';
+      group = group << 6 | (text[at + k] == '=' ? 0u : static_cast<std::uint32_t>(digit));
+    }
+    for (int k = 0; k < given - 1; ++k) bytes += static_cast<char>(group >> (16 - 8 * k));
   }
   return bytes;
 }
