@@ -152,8 +152,9 @@ std::string again(const RunData& data, const CompareRow& row) {
   return command + " --output results/again";
 }
 
-/// Least error so far: seconds, prepare included, and error by turns, four digits each.
-Json history_json(const CompareRow& row, size_t limit) {
+/// Least error so far: seconds, prepare included, and error by turns, in the digits that a chart
+/// shows.
+std::string history_text(const CompareRow& row, size_t limit) {
   std::vector<double> seconds, errors;
   for (const HistoryPoint& point : row.history) {
     if (!std::isfinite(point.error) || (!errors.empty() && point.error >= errors.back())) continue;
@@ -161,12 +162,28 @@ Json history_json(const CompareRow& row, size_t limit) {
     errors.push_back(point.error);
   }
   thin_out(seconds, errors, limit);
-  Json flat = Json::array();
+  std::string text;
   for (size_t k = 0; k < seconds.size(); ++k)
-    for (const double value : {seconds[k], errors[k]})
-      flat.push_back(parsed_number(printed("%.4g", value)).value_or(0.0));
-  return flat;
+    text += printed(k == 0 ? "%.3g %.2g" : " %.3g %.2g", seconds[k], errors[k]);
+  return text;
 }
+
+/// The cells of a column as one text: a browser takes no time to read what is not asked. Each cell
+/// ends with "delete" (0x7f); nothing says the same as the cell before, a blank that it is empty.
+class ColumnText {
+ public:
+  void add(std::string cell) {
+    replace_all(cell, "\x7f", " ");
+    if (cell.empty()) cell = " ";
+    if (cell != last_) text_ += cell;
+    text_ += '\x7f';
+    last_ = std::move(cell);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_, last_;
+};
 
 /// A backend's summary under way.
 struct Tally {
@@ -199,22 +216,20 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
                {"limit", limit_of(rows)},
                {"shift", summary_shift},
                {"again", again(data, rows[0])}};
-  // `viewable`: cases whose bodies are known
-  json["columns"] = compare_columns();
-  json["rows"] = Json::array();
+  const std::vector<std::string> names = compare_columns();
+  std::vector<ColumnText> columns(names.size());
+  ColumnText words, can_view, histories;
   const size_t points = std::clamp<size_t>(most_points / rows.size(), 8, 100);
-  std::set<std::string> viewable;
-  std::map<std::string, std::string> words;
-  std::map<std::string, Json> histories;
   for (const CompareRow& row : rows) {
-    json["rows"].push_back(cells_of(row));
-    words[row.case_name] = shell_word(row.word.empty() ? row.case_name : row.word);
-    if (row.can_view) viewable.insert(row.case_name);
-    if (row.history.size() > 1) histories[row.key] = history_json(row, points);
+    const std::vector<std::string> cells = cells_of(row);
+    for (size_t c = 0; c < names.size(); ++c) columns[c].add(cells[c]);
+    words.add(shell_word(row.word.empty() ? row.case_name : row.word));
+    can_view.add(row.can_view ? "yes" : "");
+    histories.add(row.history.size() > 1 ? history_text(row, points) : "");
   }
-  json["viewable"] = viewable;
-  json["words"] = words;
-  json["histories"] = histories;
+  for (size_t c = 0; c < names.size(); ++c) json["columns"][names[c]] = columns[c].text();
+  json["more"] = {
+      {"word", words.text()}, {"can_view", can_view.text()}, {"history", histories.text()}};
   page::Answers answers{.are_given = true};
   answers.data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (const char* name : modules) answers.modules.push_back(comparison_file(name));

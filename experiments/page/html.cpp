@@ -147,14 +147,14 @@ std::string packed(const std::string& id, const std::string& bytes) {
 
 /// The page's own data, and the curves of its figures as "pictures".
 std::string page_data_json(const Page& page) {
-  Json data = page.answers.data.empty() ? Json::object() : Json::parse(page.answers.data);
-  if (page.answers.with_curves) {
-    Json& pictures = data["pictures"] = Json::array();
-    for (const Section& section : page.sections)
-      for (const Block& block : section.blocks)
-        if (const auto* picture = std::get_if<Picture>(&block))
-          pictures.push_back(figure_json(picture->plot));
-  }
+  const std::string own = page.answers.data.empty() ? "{}" : page.answers.data;
+  if (!page.answers.with_curves) return own;
+  Json data = Json::parse(own);
+  Json& pictures = data["pictures"] = Json::array();
+  for (const Section& section : page.sections)
+    for (const Block& block : section.blocks)
+      if (const auto* picture = std::get_if<Picture>(&block))
+        pictures.push_back(figure_json(picture->plot));
   return data.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

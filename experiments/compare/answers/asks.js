@@ -26,8 +26,7 @@ function switches_of(name, words, all) {
 function asks() {
   const bar = element("section", { class: "asks", id: "asks", "aria-label": "What is shown" });
   const counts = element("p", { class: "note", "aria-live": "polite" });
-  const refresh = () => {
-    const { cases, solvers } = selection();
+  const refresh = ({ cases, solvers }) => {
     const all_cases = unique(rows.map((row) => row.case));
     counts.textContent = `${cases.length} of ${all_cases.length} cases, ` +
       `${solvers.length} of ${all_solvers.length} backends`;

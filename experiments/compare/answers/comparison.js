@@ -43,9 +43,9 @@ async function refresh_all() {
                  "without_family"].map((name) => choice.list(name).join("|")).join("&");
   if (asked === drawn) return;
   drawn = asked;
-  bar.refresh();
-  filter_failures();
   const selected = selection();
+  bar.refresh(selected);
+  filter_failures();
   const focus = document.activeElement?.name;
   for (const [id, view] of sections) {
     const holder = holders.get(id);

@@ -13,12 +13,12 @@ const facts_of = (row) => facts_table([
 /// The command that shows where in the packing the answer is wrong; a note where the bodies are not
 /// known.
 function view_of(row) {
-  if (!page_data.viewable.includes(row.case))
+  if (!row.can_view)
     return [element("p", { class: "note" },
                     "Not to be shown in 3D: the problem does not say where its contacts are.")];
   const beside = row.solver === "auto" ? "" : " --solver auto";
   return [element("p", {}, "Where in the packing it is wrong, contact by contact:"),
-    command_line(`ballast view ${page_data.words[row.case]} --solver ${row.solver}${beside}` +
+    command_line(`ballast view ${row.word} --solver ${row.solver}${beside}` +
                  (row.start === "warm" ? " --warm" : ""))];
 }
 

@@ -57,9 +57,11 @@ function family_view() {
     const points = histories.length < cases.length ? [] : mean_history(histories, 160);
     return { title: solver, ...style_of(solver), points };
   };
+  const curves = all_solvers.map(curve_of).filter((curve) => curve.points.length);
+  if (!curves.length)
+    return [line, caption("Family " + family + ".", "No backend has a history of all its cases.")];
   const figure = { title: "Error against time: family " + family, x: seconds_axis, y: error_axis,
-    lines: tolerance_lines(mine),
-    curves: all_solvers.map(curve_of).filter((curve) => curve.points.length) };
+    lines: tolerance_lines(mine), curves };
   const words = `Geometric mean over ${cases.length} cases of the least error reached by then.`;
   return [line, caption("Family " + family + ".", words), chart_of(figure, { told: told_history })];
 }

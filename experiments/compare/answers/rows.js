@@ -1,19 +1,46 @@
-// The rows of the comparison, as results.csv has them, with numbers for what is one.
+// The rows of the comparison, as results.csv has them, with numbers for what is one. A column comes
+// as one text, and is taken apart when somebody first asks for it.
 
 const counted = ["tolerance", "repeat", "max_seconds", "error", "seconds", "iterations",
                  "natural_map_rms", "contacts", "rank_deficiency", "mass_ratio", "velocity_scale",
                  "prepare_seconds", "peak_memory_MB"];
-const column_names = page_data.columns;
+const column_names = Object.keys(page_data.columns);
 
-const rows = page_data.rows.map((cells) => {
-  const row = Object.fromEntries(column_names.map((name, k) => [name, cells[k]]));
-  for (const name of counted) row[name] = Number(row[name]);
-  row.tolerance_text = cells[column_names.indexOf("tolerance")];
-  row.cells = cells;
-  row.is_solved = row.verdict === "solved";
-  row.is_denied = row.verdict === "denied";
-  return row;
-});
+class Row {
+  constructor(place) { this.place = place; }
+  get is_solved() { return this.verdict === "solved"; }
+  get is_denied() { return this.verdict === "denied"; }
+  /// As results.csv has them.
+  get cells() { return column_names.map((name) => this[name + "_text"]); }
+}
+
+/// The cells of a column's text (ColumnText of compare_page.cpp).
+function cells_of_text(text) {
+  const cells = text.split("\x7f");
+  cells.pop();
+  cells.forEach((cell, k) => {
+    if (cell === "") cells[k] = cells[k - 1];
+    else if (cell === " ") cells[k] = "";
+  });
+  return cells;
+}
+
+/// Gives rows the cells of `text` as row[name + "_text"], and as row[name] what `read`
+/// makes of it.
+function add_column(name, text, read) {
+  let texts = null, values = null;
+  const get_texts = () => (texts ??= cells_of_text(text));
+  const get_value = () => (values ??= read ? get_texts().map(read) : get_texts());
+  Object.defineProperties(Row.prototype, {
+    [name + "_text"]: { get() { return get_texts()[this.place]; } },
+    [name]: { get() { return get_value()[this.place]; } },
+  });
+}
+for (const name of column_names)
+  add_column(name, page_data.columns[name], counted.includes(name) ? Number : null);
+for (const name of Object.keys(page_data.more)) add_column(name, page_data.more[name]);
+
+const rows = cells_of_text(page_data.columns.case).map((_, place) => new Row(place));
 
 const unique = (values) => [...new Set(values)];
 const all_solvers = unique(rows.map((row) => row.solver));
@@ -50,14 +77,14 @@ function reason_of(row) {
 
 /// The command that makes a row again.
 const command_of = (row) => page_data.again
-  .replace("{case}", () => page_data.words[row.case] ?? row.case).replace("{solver}", row.solver)
+  .replace("{case}", () => row.word).replace("{solver}", row.solver)
   .replace("{tolerance}", row.tolerance_text).replace("{start}", row.start);
 
-/// Errors of a row's history as what was reached by then: {x: seconds, y: error}.
+/// Errors of a row's history as what was reached by then: [{x: seconds, y: error, row}].
 function history_of(row) {
-  const flat = page_data.histories[row.key] ?? [];
-  row.history ??= flat.flatMap((x, k) => (k % 2 ? [] : [{ x, y: flat[k + 1], row }]));
-  return row.history;
+  const flat = row.history ? row.history.split(" ").map(Number) : [];
+  row.reached ??= flat.flatMap((x, k) => (k % 2 ? [] : [{ x, y: flat[k + 1], row }]));
+  return row.reached;
 }
 
 /// Rows by the value of a column, in the order of their first ones.

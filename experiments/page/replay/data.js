@@ -4,8 +4,9 @@
 const part = (id) => document.getElementById("replay-" + id);
 
 async function partBytes(name) {
-  const holder = part(name);
-  return new Uint8Array(holder ? await (await unpacked(holder)).arrayBuffer() : 0);
+  const holder = part(name), chunks = [];
+  if (holder) for await (const chunk of unpacked(holder)) chunks.push(chunk);
+  return new Uint8Array(await new Blob(chunks).arrayBuffer());
 }
 
 // Numbers of a typed array's kind: all their first bytes, then all second ones, ...
