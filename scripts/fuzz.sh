@@ -3,6 +3,7 @@
 # are cores; prints executions and findings. Exit code 1 when there is one.
 #
 #   scripts/fuzz.sh SECONDS [TARGET...]      TARGET: scene, mesh, fclib, ... ; none: all
+#   scripts/fuzz.sh build                    only builds them
 #   scripts/fuzz.sh table                    what all runs of this folder did, target by target
 #
 # The next run goes on where the last one was: what was learnt is kept in build/fuzz/corpus/<target>,
@@ -14,7 +15,7 @@
 # what then makes half as many executions: for a short look.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-seconds=${1:?"usage: scripts/fuzz.sh SECONDS [TARGET...] | table"}
+seconds=${1:?"usage: scripts/fuzz.sh SECONDS [TARGET...] | build | table"}
 shift
 export ledger=build/fuzz/ledger.csv  # a line for every run of a target
 
@@ -75,6 +76,7 @@ echo "== building the fuzz targets (preset fuzz)"
 { cmake --preset fuzz ${OPTIMISE:+"-DCMAKE_CXX_FLAGS_DEBUG=$OPTIMISE -g1"} &&
   cmake --build --preset fuzz; } >build-fuzz.log 2>&1 ||
   { tail -n 40 build-fuzz.log; exit 1; }
+[ "$seconds" != build ] || exit 0
 if [ $# = 0 ]; then
   set -- tests/fuzz/*_fuzz.cpp
   set -- "${@##*/}"
