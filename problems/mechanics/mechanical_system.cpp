@@ -145,14 +145,6 @@ std::vector<ContactShape> contact_shapes(const MechanicalSystem& system) {
   return shapes;
 }
 
-/// m |v|^2 / 2 + w.I w / 2, spin and inertia in the body frame [J].
-double kinetic_energy(const RigidBody& body, const Vec3& velocity, const Vec3& spin) {
-  if (body.freedom.count() == 0) return 0.0;
-  double energy = 0.5 * body.mass * velocity.squaredNorm();
-  if (body.freedom.rotation) energy += 0.5 * spin.dot(body.inertia.cwiseProduct(spin));
-  return energy;
-}
-
 double outward_displacement(const MechanicalSystem& system, const MotionState& state, int wall) {
   const WallSpec& spec = system.bodies[wall].wall;
   return spec.offset - spec.normal.dot(state.pose[wall].position);
