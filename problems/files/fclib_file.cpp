@@ -129,8 +129,7 @@ FrictionProblem to_friction_problem(const GlobalProblem& global) {
     if (!root.factor(block, dynamics.body_dofs(b)))
       throw InvalidProblem("M(" + std::to_string(first) + ", " + std::to_string(first) + ") = " +
                            std::to_string(block[0]) + ": the block is not positive definite");
-    root.solve_lower(dynamics.v_free.data() + first);
-    root.solve_upper(dynamics.v_free.data() + first);
+    root.solve(dynamics.v_free.data() + first);
   }
   return problem;
 }
