@@ -122,10 +122,8 @@ double read_mass(TomlTable& table, double volume, bool can_move) {
 }
 
 void read_locks(TomlTable& table, BodySpec& body) {
-  std::vector<std::string> locked;
-  table.read("locked", &locked);
   constexpr std::array<std::string_view, 4> freedoms{"x", "y", "z", "rotation"};
-  for (const std::string& lock : locked) {
+  for (const std::string& lock : table.texts("locked")) {
     const auto at = std::find(freedoms.begin(), freedoms.end(), lock);
     if (at == freedoms.end())
       table.fail("locked", "unknown word \"" + lock +
@@ -337,8 +335,7 @@ void read_bodies(TomlTable& root, const fs::path& folder, Scene& scene) {
   }
   number = 0;
   for (TomlTable& table : root.sections("crowd")) {
-    std::string name = "crowd_" + std::to_string(number++);
-    table.read("name", &name);
+    const std::string name = table.text("name", "crowd_" + std::to_string(number++));
     std::vector<BodySpec> bodies = make_crowd(table, read_crowd(table, scene));
     for (size_t k = 0; k < bodies.size(); ++k) bodies[k].name = name + '_' + std::to_string(k);
     add(table, std::move(bodies));
