@@ -214,9 +214,7 @@ void all_rest(StressProblem& stress) {
 /// For names: one decimal, the others cut off.
 std::string number(double x) {
   const std::string text = std::to_string(x);
-  return text.substr(0, text.find_last_not_of("0.") + 1).empty()
-             ? "0"
-             : text.substr(0, text.find('.') + 2);
+  return x == 0.0 ? "0" : text.substr(0, text.find('.') + 2);
 }
 
 /// A body with two contacts whose normals differ by 2 angle [rad].
