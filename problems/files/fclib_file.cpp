@@ -331,8 +331,6 @@ void add_global(Hdf5Writer& file, const GlobalProblem& global) {
 
 }  // namespace
 
-/// M, H, f, w and mu of M v = H r + f, u = H^T v + w: H has unknowns for rows, contacts for
-/// columns.
 GlobalProblem read_global(const Hdf5Reader& file) {
   const std::string root = "/fclib_global";
   require_unilateral_3d(file, root);
