@@ -115,9 +115,7 @@ void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec
   body.shape.plane.normal = spec.normal;
   body.shape.fixed = spec.motion != WallMotion::driven;
   system.bodies.push_back(std::move(body));
-  Pose pose;
-  pose.position = spec.offset * spec.normal;
-  state.pose.push_back(pose);
+  state.pose.push_back({spec.offset * spec.normal, Quat::Identity()});
   state.velocity.push_back(Vec3::Zero());
   state.spin.push_back(Vec3::Zero());
   if (spec.motion == WallMotion::prescribed) impose(*spec.imposed, system, state);
