@@ -79,9 +79,10 @@ AtomicFile::~AtomicFile() {
   if (!neighbour_.empty()) std::remove(neighbour_.c_str());
 }
 
-void AtomicFile::write(const void* data, size_t bytes) {
+void AtomicFile::write(std::string_view text) {
   errno = 0;
-  if (std::fwrite(data, 1, bytes, file_) != bytes) throw_file_error(name_, "write");
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size())
+    throw_file_error(name_, "write");
 }
 
 int AtomicFile::descriptor() const {

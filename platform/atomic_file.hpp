@@ -22,8 +22,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  void write(const void* data, size_t bytes);
-  void write(std::string_view text) { write(text.data(), text.size()); }
+  void write(std::string_view text);
 
   /// For what is not written from its beginning to its end, instead of write(): of the neighbour.
   /// Throws Error where the target itself is written, as a pipe is: there is no going back in it.

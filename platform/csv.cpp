@@ -17,12 +17,9 @@ void CsvWriter::add(std::string_view cell) {
   separate();
   // A cell in quotes may hold commas; a quote in it is written twice.
   const bool is_quoted = cell.find_first_of(",\"\n\r") != std::string_view::npos;
-  if (is_quoted) text_ += '"';
-  for (const char c : one_line(cell, ' ')) {
-    if (c == '"') text_ += '"';
-    text_ += c;
-  }
-  if (is_quoted) text_ += '"';
+  std::string text = one_line(cell, ' ');
+  replace_all(text, "\"", "\"\"");
+  text_ += is_quoted ? '"' + text + '"' : text;
 }
 
 void CsvWriter::add(double value, int digits) {

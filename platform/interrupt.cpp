@@ -37,10 +37,8 @@ InterruptGuard::InterruptGuard() {
 
 InterruptGuard::~InterruptGuard() {
   if (--guards > 0) return;
-  for (const int signal : caught) {
-    const auto before = std::signal(signal, SIG_DFL);
-    if (before == SIG_IGN) std::signal(signal, SIG_IGN);
-  }
+  for (const int signal : caught)
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
   std::signal(SIGPIPE, SIG_DFL);
 }
 

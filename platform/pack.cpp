@@ -13,7 +13,6 @@ constexpr size_t head_bytes = 24, checksum_bytes = 8;
 
 void write_sealed_file(const std::filesystem::path& file, const SealedKind& kind,
                        std::string_view body) {
-  // The file, in bytes:   | magic 8 | format 4 | byte order 4 | length 8 | body | checksum 8 |
   Packer head;
   head.fixed(kind.magic);
   head.numbers(kind.format, this_byte_order, std::uint64_t{body.size()});

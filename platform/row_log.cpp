@@ -13,9 +13,7 @@ namespace {
 
 constexpr std::uint64_t largest_row = std::uint64_t{1} << 32;  // numbers: 300 million bodies
 
-/// The file, with a checksum (8 bytes) behind the header and behind every row:
-///
-///     | FixedHeader 40 | SafeMark 16 | text | checksum | row 0 | checksum | row 1 | checksum | ...
+/// What a file begins with, before the SafeMark (row_log.hpp).
 struct FixedHeader {
   char magic[8] = {'B', 'A', 'L', 'L', 'R', 'O', 'W', 'S'};
   std::uint32_t version = 1, byte_order = 0x01020304;

@@ -9,11 +9,7 @@ namespace ballast {
 
 class StatusLine {
  public:
-  enum class Style {
-    quiet,
-    lines,
-    bar,
-  };
+  enum class Style { quiet, lines, bar };
 
   /// bar if stderr is a terminal, else lines.
   static Style style_of_stderr();

@@ -15,7 +15,6 @@ Travel step_bound(const Pose& from, const Pose& to) {
   return {(to.position - from.position).norm(), 2.0 * std::sqrt(std::min(same, opposite))};
 }
 
-/// The smallest upright box around the body as it is turned and placed.
 Bounds bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position) {
   const AffineRows& vertices = shape.vertices();
   Bounds box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};

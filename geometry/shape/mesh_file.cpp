@@ -7,10 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "geometry/shape/convex_hull.hpp"
 #include "platform/atomic_file.hpp"

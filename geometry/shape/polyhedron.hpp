@@ -60,15 +60,9 @@ class Polyhedron {
   const Vec3& vertex(int v) const { return vertices_[v]; }
 
   /// Vertices of face f, counter-clockwise from outside.
-  std::span<const int> face(int f) const {
-    return {face_vertices_.data() + face_begin_[f],
-            static_cast<size_t>(face_begin_[f + 1] - face_begin_[f])};
-  }
+  std::span<const int> face(int f) const { return of_face(f, face_vertices_); }
   /// Faces across the edges of face f: neighbour k lies across face(f)[k] -> face(f)[k+1].
-  std::span<const int> face_neighbours(int f) const {
-    return {face_neighbours_.data() + face_begin_[f],
-            static_cast<size_t>(face_begin_[f + 1] - face_begin_[f])};
-  }
+  std::span<const int> face_neighbours(int f) const { return of_face(f, face_neighbours_); }
   /// Outward unit normal of face f, and its offset: the solid is {x : normal(f).x <= offset(f) for
   /// all f}.
   const Vec3& normal(int f) const { return normals_[f]; }
@@ -86,6 +80,9 @@ class Polyhedron {
   double inradius() const { return inradius_; }
 
  private:
+  std::span<const int> of_face(int f, const std::vector<int>& all) const {
+    return {all.data() + face_begin_[f], static_cast<size_t>(face_begin_[f + 1] - face_begin_[f])};
+  }
   void build_faces(const std::vector<std::vector<int>>& faces);
   void join_faces();
   void check_one_piece() const;

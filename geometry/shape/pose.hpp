@@ -39,10 +39,7 @@ inline Quat rotation_by(const Vec3& phi) {
 /// (body frame): the exponential map, then normalised, so that the quaternion's length does not
 /// drift.
 inline Pose moved(const Pose& pose, const Vec3& v_W, const Vec3& w_B, double dt) {
-  Pose next;
-  next.position = pose.position + dt * v_W;
-  next.rotation = (pose.rotation * rotation_by(dt * w_B)).normalized();
-  return next;
+  return {pose.position + dt * v_W, (pose.rotation * rotation_by(dt * w_B)).normalized()};
 }
 
 // Directions and rotations by the seeded generator: products and square roots only, so that they

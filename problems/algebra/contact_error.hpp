@@ -7,7 +7,6 @@
 #include "platform/worker_team.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/friction_problem.hpp"
-#include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
 

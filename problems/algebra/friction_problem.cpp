@@ -186,10 +186,7 @@ void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots) {
 
 void solve_masses(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots,
                   Eigen::VectorXd& v) {
-  for (int b = 0; b < dynamics.body_count(); ++b) {
-    roots[b].solve_lower(v.data() + dynamics.dof_begin[b]);
-    roots[b].solve_upper(v.data() + dynamics.dof_begin[b]);
-  }
+  for (int b = 0; b < dynamics.body_count(); ++b) roots[b].solve(v.data() + dynamics.dof_begin[b]);
 }
 
 Eigen::SparseMatrix<double> sparse_mass(const DynamicsForm& dynamics) {

@@ -49,10 +49,9 @@ class Pile {
   }
 
  private:
-  /// As many as leave the redundancy that is asked for: 6 unknowns a body, 3 rows a contact.
+  /// As many as leave the redundancy that is asked for: with B bodies and C contacts W has 3 C rows
+  /// and the rank 6 B at most.
   int body_count() const {
-    // With B bodies and C contacts W has 3 C rows and the rank 6 B at
-    // most: 1 - 6 B / 3 C is redundant.
     const double bodies = (1.0 - settings_.redundancy) * 0.5 * settings_.contacts;
     return std::max(1, static_cast<int>(std::lround(bodies)));
   }
@@ -214,9 +213,7 @@ void all_rest(StressProblem& stress) {
 /// For names: one decimal, the others cut off.
 std::string number(double x) {
   const std::string text = std::to_string(x);
-  return text.substr(0, text.find_last_not_of("0.") + 1).empty()
-             ? "0"
-             : text.substr(0, text.find('.') + 2);
+  return x == 0.0 ? "0" : text.substr(0, text.find('.') + 2);
 }
 
 /// A body with two contacts whose normals differ by 2 angle [rad].

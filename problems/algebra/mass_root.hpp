@@ -21,8 +21,7 @@ struct alignas(64) MassRoot {
   /// `mass` is dofs x dofs, column-major; its lower triangle is read. False: not positive definite.
   bool factor(const double* mass, int dof_count);
 
-  void solve_lower(double* x) const;  ///< x := L^-1 x
-  void solve_upper(double* x) const;  ///< x := L^-T x
+  void solve(double* x) const;  ///< x := M^-1 x
   /// x := L^T x. `mass`: of which this is the root.
   void multiply_upper(const double* mass, double* x) const;
 
@@ -85,15 +84,13 @@ inline bool MassRoot::factor(const double* mass, int dof_count) {
   return true;
 }
 
-inline void MassRoot::solve_lower(double* x) const {
+inline void MassRoot::solve(double* x) const {
+  // L^-1, then L^-T.
   for (int j = 0; j < dofs; ++j) {
     x[j] *= inverse[j];
     if (!diagonal)
       for (int i = j + 1; i < dofs; ++i) x[i] -= l[j * max_dofs + i] * x[j];
   }
-}
-
-inline void MassRoot::solve_upper(double* x) const {
   for (int j = dofs - 1; j >= 0; --j) {
     if (!diagonal)
       for (int i = j + 1; i < dofs; ++i) x[j] -= l[j * max_dofs + i] * x[i];

@@ -129,8 +129,7 @@ FrictionProblem to_friction_problem(const GlobalProblem& global) {
     if (!root.factor(block, dynamics.body_dofs(b)))
       throw InvalidProblem("M(" + std::to_string(first) + ", " + std::to_string(first) + ") = " +
                            std::to_string(block[0]) + ": the block is not positive definite");
-    root.solve_lower(dynamics.v_free.data() + first);
-    root.solve_upper(dynamics.v_free.data() + first);
+    root.solve(dynamics.v_free.data() + first);
   }
   return problem;
 }
@@ -332,8 +331,6 @@ void add_global(Hdf5Writer& file, const GlobalProblem& global) {
 
 }  // namespace
 
-/// M, H, f, w and mu of M v = H r + f, u = H^T v + w: H has unknowns for rows, contacts for
-/// columns.
 GlobalProblem read_global(const Hdf5Reader& file) {
   const std::string root = "/fclib_global";
   require_unilateral_3d(file, root);

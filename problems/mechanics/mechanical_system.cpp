@@ -115,9 +115,7 @@ void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec
   body.shape.plane.normal = spec.normal;
   body.shape.fixed = spec.motion != WallMotion::driven;
   system.bodies.push_back(std::move(body));
-  Pose pose;
-  pose.position = spec.offset * spec.normal;
-  state.pose.push_back(pose);
+  state.pose.push_back({spec.offset * spec.normal, Quat::Identity()});
   state.velocity.push_back(Vec3::Zero());
   state.spin.push_back(Vec3::Zero());
   if (spec.motion == WallMotion::prescribed) impose(*spec.imposed, system, state);
@@ -143,14 +141,6 @@ std::vector<ContactShape> contact_shapes(const MechanicalSystem& system) {
   shapes.reserve(system.bodies.size());
   for (const RigidBody& body : system.bodies) shapes.push_back(body.shape);
   return shapes;
-}
-
-/// m |v|^2 / 2 + w.I w / 2, spin and inertia in the body frame [J].
-double kinetic_energy(const RigidBody& body, const Vec3& velocity, const Vec3& spin) {
-  if (body.freedom.count() == 0) return 0.0;
-  double energy = 0.5 * body.mass * velocity.squaredNorm();
-  if (body.freedom.rotation) energy += 0.5 * spin.dot(body.inertia.cwiseProduct(spin));
-  return energy;
 }
 
 double outward_displacement(const MechanicalSystem& system, const MotionState& state, int wall) {

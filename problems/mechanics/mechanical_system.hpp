@@ -89,9 +89,6 @@ void follow(const RigidBody& body, double time, Pose& pose, Vec3& velocity, Vec3
 
 std::vector<ContactShape> contact_shapes(const MechanicalSystem& system);
 
-/// Of what has unknowns [J]. `velocity` world frame [m/s], `spin` body frame [rad/s].
-double kinetic_energy(const RigidBody& body, const Vec3& velocity, const Vec3& spin);
-
 /// Displacement of a wall from where it started, along -normal (outward) [m], and its outward
 /// velocity [m/s].
 double outward_displacement(const MechanicalSystem& system, const MotionState& state, int wall);

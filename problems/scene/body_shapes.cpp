@@ -32,8 +32,7 @@ ReadShape of_parts(std::span<const PlacedShape> parts) {
 
 /// The name of a mesh file, made absolute in the resolved scene too.
 std::string read_mesh_name(TomlTable& table, const fs::path& folder) {
-  std::string file;
-  table.read("file", &file, {}, required);
+  const std::string file = table.text("file");
   if (file.empty()) table.fail("file", "is empty, expected the path of a mesh");
   const std::string path = mesh_path(folder, file);
   table.replace_resolved("file", toml::value<std::string>(path));

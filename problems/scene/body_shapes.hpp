@@ -3,9 +3,7 @@
 // parts.
 
 #include <filesystem>
-#include <memory>
 #include <string>
-#include <vector>
 
 #include "geometry/shape/compound.hpp"
 #include "problems/scene/toml_reader.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -123,10 +122,8 @@ double read_mass(TomlTable& table, double volume, bool can_move) {
 }
 
 void read_locks(TomlTable& table, BodySpec& body) {
-  std::vector<std::string> locked;
-  table.read("locked", &locked);
   constexpr std::array<std::string_view, 4> freedoms{"x", "y", "z", "rotation"};
-  for (const std::string& lock : locked) {
+  for (const std::string& lock : table.texts("locked")) {
     const auto at = std::find(freedoms.begin(), freedoms.end(), lock);
     if (at == freedoms.end())
       table.fail("locked", "unknown word \"" + lock +
@@ -260,8 +257,7 @@ PrincipalShape crowd_shape(const CrowdSpec& crowd, double radius, std::uint64_t 
   return to_principal_frame(make_box(2.0 * radius / crowd.aspect.norm() * crowd.aspect));
 }
 
-std::shared_ptr<const BodySpec> crowd_model(const TomlTable& table, const CrowdSpec& crowd,
-                                            double radius, long k) try {
+BodySpec crowd_model(const TomlTable& table, const CrowdSpec& crowd, double radius, long k) try {
   PrincipalShape solid =
       crowd_shape(crowd, radius, crowd.seed * 1'000'003 + static_cast<std::uint64_t>(k));
   BodySpec body;
@@ -270,7 +266,7 @@ std::shared_ptr<const BodySpec> crowd_model(const TomlTable& table, const CrowdS
   body.shape = std::make_shared<const Polyhedron>(std::move(solid.shape));
   body.velocity = crowd.velocity;
   body.material = crowd.material;
-  return std::make_shared<const BodySpec>(std::move(body));
+  return body;
 } catch (const InvalidPolyhedron& error) {  // a box a million times thinner than wide, say
   table.fail("shape", error.what());
 }
@@ -286,18 +282,14 @@ std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd)
     table.fail("count", "does not fit between from and to, where " +
                             std::to_string(static_cast<long>(fitting)) + " bodies have room");
   Random random(crowd.seed);
-  std::vector<std::shared_ptr<const BodySpec>>
-      models;  // the first bodies; the others are like them
-  std::vector<BodySpec> bodies;
+  const bool is_varied = crowd.shape == "grain" || crowd.least_radius < crowd.radius;
+  std::vector<BodySpec> models, bodies;  // models: the first bodies; the others are like them
   const auto along_x = static_cast<long>(cells.x()), along_y = static_cast<long>(cells.y());
   for (long k = 0; k < crowd.count; ++k) {
     const double radius = random.uniform(crowd.least_radius, crowd.radius);
-    if (k < most_models) {
-      const bool is_new = k == 0 || crowd.shape == "grain" || crowd.least_radius < crowd.radius;
-      models.push_back(is_new ? crowd_model(table, crowd, radius, k) : models[0]);
-    }
-    const auto& model = models[static_cast<size_t>(k % most_models)];
-    BodySpec& body = bodies.emplace_back(*model);
+    if (k == 0 || (is_varied && k < most_models))
+      models.push_back(crowd_model(table, crowd, radius, k));
+    BodySpec& body = bodies.emplace_back(models[static_cast<size_t>(k) % models.size()]);
     const long layer = k / (along_x * along_y), row = k / along_x % along_y;
     const Vec3 corner(static_cast<double>(k % along_x), static_cast<double>(row),
                       static_cast<double>(layer));
@@ -307,12 +299,6 @@ std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd)
     body.pose.rotation = random_rotation(random);
   }
   return bodies;
-}
-
-/// In a world that repeats itself a body meets its own image unless it is small.
-void check_size(const TomlTable& table, const BodySpec& body, const Period& period) {
-  if (!period.has_room_for(body.shape->circumradius()))
-    table.fail("shape", "not smaller than half of scene.period");
 }
 
 }  // namespace
@@ -330,7 +316,9 @@ void read_bodies(TomlTable& root, const fs::path& folder, Scene& scene) {
   const auto add = [&](const TomlTable& table, std::vector<BodySpec>&& bodies) {
     for (BodySpec& body : bodies) {
       check_name(table, body.name);
-      check_size(table, body, scene.period);
+      // In a world that repeats itself a body meets its own image unless it is small.
+      if (!scene.period.has_room_for(body.shape->circumradius()))
+        table.fail("shape", "not smaller than half of scene.period");
       scene.bodies.push_back(std::move(body));
     }
   };
@@ -347,8 +335,7 @@ void read_bodies(TomlTable& root, const fs::path& folder, Scene& scene) {
   }
   number = 0;
   for (TomlTable& table : root.sections("crowd")) {
-    std::string name = "crowd_" + std::to_string(number++);
-    table.read("name", &name);
+    const std::string name = table.text("name", "crowd_" + std::to_string(number++));
     std::vector<BodySpec> bodies = make_crowd(table, read_crowd(table, scene));
     for (size_t k = 0; k < bodies.size(); ++k) bodies[k].name = name + '_' + std::to_string(k);
     add(table, std::move(bodies));

@@ -66,12 +66,11 @@ void read_grain_shape(TomlTable table, GrainShapeSettings& s) {
 GrainsSpec read_grains(TomlTable table, const fs::path& folder) {
   GrainsSpec grains;
   std::string size = "radius";
-  std::vector<std::string> meshes;
   table.read("count", &grains.count, whole(1, 1'000'000), required);
   table.read("seed", &grains.seed);
   table.read("density", &grains.density, in(positive, "kg/m^3"));
   table.read("size", &size, one_of({"radius", "diameter"}));
-  table.read("meshes", &meshes);
+  const std::vector<std::string> meshes = table.texts("meshes");
   grains.size_convention = size == "radius" ? SizeConvention::radius : SizeConvention::diameter;
   grains.distribution = read_distribution(table);
   read_grain_shape(table.section("shape"), grains.shape);

@@ -73,17 +73,6 @@ TEST_CASE("bodies come before walls, with the freedom that each has") {
   CHECK(make_system(scene, none).first_driven_wall() == -1);
 }
 
-TEST_CASE("kinetic energy is of what can move") {
-  MotionState state;
-  const MechanicalSystem system = make_system(two_cubes_and_two_walls(), state);
-  const double inertia = 2.0 * 0.1 * 0.1 / 6.0;
-  const Vec3 velocity(1, 2, 3), spin(4, 5, 6);
-  CHECK(kinetic_energy(system.bodies[0], velocity, spin) ==
-        Approx(0.5 * 2.0 * 14.0 + 0.5 * inertia * 77.0));
-  CHECK(kinetic_energy(system.bodies[1], Vec3(0, 2, 0), Vec3::Zero()) == Approx(0.5 * 3.0 * 4.0));
-  CHECK(kinetic_energy(system.bodies[2], velocity, spin) == 0.0);
-}
-
 TEST_CASE("a driven wall's way and speed are counted outward, from where it began") {
   MotionState state;
   const MechanicalSystem system = make_system(two_cubes_and_two_walls(), state);
