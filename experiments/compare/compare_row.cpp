@@ -152,10 +152,10 @@ std::string to_json(const CompareRow& row) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-CompareRow compare_row_of_json(const std::string& text, const std::string& file) {
+CompareRow compare_row_of_json(const std::string& text, const std::string& file, CompareRow row) {
   try {
     const Json json = Json::parse(text);
-    CompareRow row;
+    row.history.clear();
     for_columns(row, [&](const char* name, auto& value) { take(json.at(name), value); });
     for (const Json& h : json.at("history")) {
       HistoryPoint point;
