@@ -137,8 +137,7 @@ std::vector<std::string> cells_of(const CompareRow& row) {
 
 std::string compare_csv(const std::vector<CompareRow>& rows) {
   CsvWriter csv;
-  for (const std::string& column : compare_columns()) csv.add(column);
-  csv.end_row();
+  csv.add_row(compare_columns());
   for (const CompareRow& row : rows) csv.add_row(cells_of(row));
   return csv.take();
 }

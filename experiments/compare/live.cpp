@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <optional>
 
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/record/checkpoint.hpp"

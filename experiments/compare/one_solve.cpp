@@ -9,7 +9,6 @@
 #include <sys/resource.h>
 
 #include "platform/clock.hpp"
-#include "platform/error.hpp"
 #include "platform/pack.hpp"
 #include "platform/program.hpp"
 
