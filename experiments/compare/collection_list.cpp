@@ -4,7 +4,6 @@
 #include <set>
 
 #include "experiments/compare/compare_case.hpp"
-#include "platform/error.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"

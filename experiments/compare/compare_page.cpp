@@ -27,8 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-page::Text count_of(size_t count) { return page::exact(static_cast<double>(count)); }
-
 /// Milliseconds or seconds; a dash for what is not finite.
 page::Text time_of(double seconds) {
   if (!std::isfinite(seconds)) return {"–", page::note};
@@ -39,9 +37,7 @@ page::Text time_of(double seconds) {
 /// Backends side by side.
 page::Table backends_table(const CompareTable& table) {
   // nothing for what did not happen
-  const auto if_any = [](long count) {
-    return count == 0 ? page::Text() : page::exact(static_cast<double>(count));
-  };
+  const auto if_any = [](int count) { return count == 0 ? page::Text() : page::exact(count); };
   page::Table result{.head = {"backend", "law", "solved", "mean time", "unsolved in it",
                               "over fastest", "timeouts", "crashes", "not taken", "no solution",
                               "claims denied", "spread"}};
@@ -84,14 +80,9 @@ page::Table failures_table(std::span<const CompareRow> rows) {
 }
 
 page::Text lede(std::span<const CompareRow> rows) {
-  std::set<std::string> solvers, cases;
-  for (const CompareRow& row : rows) {
-    solvers.insert(row.solver);
-    cases.insert(row.case_name);
-  }
-  return page::words("compare.lede", {{"solvers", count_of(solvers.size())},
-                                      {"problems", count_of(cases.size())},
-                                      {"solves", count_of(rows.size())},
+  return page::words("compare.lede", {{"solvers", different(rows, &CompareRow::solver)},
+                                      {"problems", different(rows, &CompareRow::case_name)},
+                                      {"solves", page::exact(rows.size())},
                                       {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
 }
 
@@ -329,6 +320,12 @@ std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
         });
   }
   return tables;
+}
+
+page::Text different(std::span<const CompareRow> rows, std::string CompareRow::*name) {
+  std::set<std::string> names;
+  for (const CompareRow& row : rows) names.insert(row.*name);
+  return page::exact(names.size());
 }
 
 double limit_of(std::span<const CompareRow> rows) {

@@ -70,6 +70,9 @@ inline constexpr double summary_shift = 1e-3;
 /// are in none.
 std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows);
 
+/// How many different backends, cases, ... the rows have.
+page::Text different(std::span<const CompareRow> rows, std::string CompareRow::*name);
+
 /// What an unsolved case counts: the largest limit of the rows.
 double limit_of(std::span<const CompareRow> rows);
 

@@ -137,8 +137,7 @@ std::vector<std::string> cells_of(const CompareRow& row) {
 
 std::string compare_csv(const std::vector<CompareRow>& rows) {
   CsvWriter csv;
-  for (const std::string& column : compare_columns()) csv.add(column);
-  csv.end_row();
+  csv.add_row(compare_columns());
   for (const CompareRow& row : rows) csv.add_row(cells_of(row));
   return csv.take();
 }
@@ -152,10 +151,10 @@ std::string to_json(const CompareRow& row) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-CompareRow compare_row_of_json(const std::string& text, const std::string& file) {
+CompareRow compare_row_of_json(const std::string& text, const std::string& file, CompareRow row) {
   try {
     const Json json = Json::parse(text);
-    CompareRow row;
+    row.history.clear();
     for_columns(row, [&](const char* name, auto& value) { take(json.at(name), value); });
     for (const Json& h : json.at("history")) {
       HistoryPoint point;

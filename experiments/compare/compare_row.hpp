@@ -74,9 +74,10 @@ std::vector<std::string> cells_of(const CompareRow& row);
 /// All rows without their histories; fields with commas or quotes are quoted.
 std::string compare_csv(const std::vector<CompareRow>& rows);
 
-/// A row as JSON with its history, and back: bits of numbers kept, NaN and infinity as null. Throws
-/// Error naming `file`.
+/// A row as JSON with its history, and back: bits of numbers kept, NaN and infinity as null; what
+/// is in no file is that of `row`. Throws Error naming `file`.
 std::string to_json(const CompareRow& row);
-CompareRow compare_row_of_json(const std::string& text, const std::string& file);
+CompareRow compare_row_of_json(const std::string& text, const std::string& file,
+                               CompareRow row = {});
 
 }  // namespace ballast

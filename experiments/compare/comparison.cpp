@@ -161,10 +161,7 @@ class Comparison {
   static bool take_stored(const fs::path& file, CompareRow& row) {
     if (!is_there(file)) return false;
     try {
-      CompareRow stored = compare_row_of_json(read_whole_file(file), file.string());
-      stored.word = row.word;
-      stored.can_view = row.can_view;
-      row = std::move(stored);
+      row = compare_row_of_json(read_whole_file(file), file.string(), row);
     } catch (const Error&) {
       return false;
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <optional>
 
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/record/checkpoint.hpp"
@@ -158,13 +157,12 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
       (content_key("trajectory 4|" + binary + '|' + start.key + '|' + solver.name + numbers) +
        ".bin");
   if (is_there(file)) {
-    const Trajectory fresh = trajectory;
+    Trajectory stored = trajectory;
     try {
-      unpack(read_sealed_file(file, trajectory_kind), file.string(), trajectory);
-      return trajectory;
+      unpack(read_sealed_file(file, trajectory_kind), file.string(), stored);
+      return stored;
     } catch (const Error& error) {
       std::cerr << "ballast: " << error.what() << "; it is made again" << std::endl;
-      trajectory = fresh;
     }
   }
   step_in_child(options, scene, start, solver, trajectory);

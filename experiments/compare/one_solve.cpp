@@ -9,7 +9,6 @@
 #include <sys/resource.h>
 
 #include "platform/clock.hpp"
-#include "platform/error.hpp"
 #include "platform/pack.hpp"
 #include "platform/program.hpp"
 
@@ -181,10 +180,7 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
   unpacker.number(account.solved.reason);
   unpacker.list(account.solved.impulses);
   unpacker.finish();
-  account.row = compare_row_of_json(text, origin);
-  account.row.word = row.word;
-  account.row.can_view = row.can_view;
-  row = std::move(account.row);
+  row = compare_row_of_json(text, origin, row);
   judge(loaded, account, row);
 }
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
-#include "experiments/compare/compare_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "platform/random.hpp"
 

@@ -34,7 +34,6 @@ bool is_of(const CompareRow& row, const std::string& kind) {
   return kind == everything || world_of(row) == kind || size_of(row) == kind;
 }
 
-page::Text count(size_t number) { return page::exact(static_cast<double>(number)); }
 page::Text solved(const BackendSummary& s) {
   return page::quantity(100.0 * s.solved / (s.solved + s.unsolved), "%");
 }
@@ -89,14 +88,10 @@ class Ranking {
   }
 
   page::Page page() const {
-    std::set<std::string> cases, solvers;
-    for (const CompareRow& row : rows_) {
-      cases.insert(row.case_name);
-      solvers.insert(row.solver);
-    }
     page::Page page{.title = "Solvers of frictional contact: who solves what, and how fast",
-                    .lede = {page::words("ranking.lede", {{"solvers", count(solvers.size())},
-                                                          {"problems", count(cases.size())}})}};
+                    .lede = {page::words(
+                        "ranking.lede", {{"solvers", different(rows_, &CompareRow::solver)},
+                                         {"problems", different(rows_, &CompareRow::case_name)}})}};
     page::Section order{"order", "The order"}, each{"by-family", "Family by family, size by size"},
         failures{"failures", "What each backend fails on"};
     order.add(
@@ -241,9 +236,9 @@ class Ranking {
       const auto number =
           std::ranges::count_if(is_solved, [](const auto& one) { return one.second; });
       table.rows.push_back(
-          {kind, count(contacts.size()), count(held), page::exact(quantile(contacts, 0.0)),
-           page::exact(quantile(contacts, 0.5)), page::exact(quantile(contacts, 1.0)),
-           page::number(ratio, 2),
+          {kind, page::exact(contacts.size()), page::exact(held),
+           page::exact(quantile(contacts, 0.0)), page::exact(quantile(contacts, 0.5)),
+           page::exact(quantile(contacts, 1.0)), page::number(ratio, 2),
            page::quantity(
                100.0 * static_cast<double>(number) / static_cast<double>(contacts.size()), "%")});
     }
@@ -263,8 +258,8 @@ class Ranking {
         page::Text value = page::number(tau.value, 2);
         if (!std::isnan(tau.low)) value += " " + page::interval(tau.low, tau.high);
         table.rows.push_back({printed("%g, %s", tried.tolerance, name_of(tried.start)), what,
-                              count(some.members.size()), count(runs_of(some).size()), value,
-                              some.tried->solvers[static_cast<size_t>(first)]});
+                              page::exact(some.members.size()), page::exact(runs_of(some).size()),
+                              value, some.tried->solvers[static_cast<size_t>(first)]});
       };
       add("held problems", group_of(tried, everything, true));
       for (const TriedCases* other = &tried + 1; other != tried_.data() + tried_.size(); ++other)

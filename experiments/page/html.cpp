@@ -42,12 +42,13 @@ std::string palette_rules() {
                variable + ")}\n";
   };
   add("black", "ink");
-  add("rgb(224,224,224)", "grid");
+  add("rgb(224, 224, 224)", "grid");
   for (int k = 0; k <= static_cast<int>(Ink::light); ++k) {
     const Ink ink = Ink(k);
     const long value = std::strtol(rgb_of(ink) + 1, nullptr, 16);
-    add(printed("rgb(%ld,%ld,%ld)", value >> 16, (value >> 8) & 255, value & 255),
-        variable_of(ink));
+    // as gnuplot writes colours of words, and all others
+    for (const char* form : {"rgb(%ld,%ld,%ld)", "rgb(%3ld, %3ld, %3ld)"})
+      add(printed(form, value >> 16, (value >> 8) & 255, value & 255), variable_of(ink));
   }
   return rules;
 }
@@ -57,17 +58,6 @@ void cut_all(std::string& text, std::string_view begin, std::string_view end) {
   for (size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
     const size_t close = text.find(end, at + begin.size());
     text.erase(at, close == std::string::npos ? std::string::npos : close + end.size() - at);
-  }
-}
-
-/// "rgb(  0, 114, 178)" to "rgb(0,114,178)": the style sheet matches the attribute's text.
-void tighten_colours(std::string& text) {
-  for (size_t at = 0; (at = text.find("rgb(", at)) != std::string::npos; ++at) {
-    const size_t close = text.find(')', at);
-    if (close == std::string::npos) return;
-    const auto begin = text.begin() + static_cast<long>(at),
-               end = text.begin() + static_cast<long>(close);
-    text.erase(std::remove(begin, end, ' '), end);
   }
 }
 
@@ -325,7 +315,6 @@ std::string inline_svg(std::string_view svg, const std::string& name, const std:
                 std::string("href=") + quote + '#' + name + '-');
   }
   replace_all(text, "url(#", "url(#" + name + '-');
-  tighten_colours(text);
   const size_t begin = text.find("<title>"), end = text.find("</title>");
   if (begin != std::string::npos && end != std::string::npos && begin < end)
     text.replace(begin + 7, end - begin - 7, escaped_html(title));

@@ -23,8 +23,7 @@ std::string html_of(const Block& block);
 std::string escaped_html(std::string_view text);
 
 /// A figure's SVG for inlining: without XML declaration, doctype and comments, with ids of its own
-/// (`name` before each), colours in the form that the page's style maps to its light and dark
-/// palette, and `title` for screen readers.
+/// (`name` before each), and `title` for screen readers.
 std::string inline_svg(std::string_view svg, const std::string& name, const std::string& title);
 
 /// Is the library that draws built in (Chart.js)?

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <stdexcept>
 
 #include "platform/text.hpp"
 
@@ -49,13 +50,13 @@ std::string wrapped(const std::string& words, const char* open, const char* clos
 }
 
 /// Runs of backticks in `text` are shorter than this.
-std::string fence_for(const std::string& text, size_t least) {
+std::string fence_for(const std::string& text) {
   size_t longest = 0, run = 0;
   for (const char c : text) {
     run = c == '`' ? run + 1 : 0;
     longest = std::max(longest, run);
   }
-  return std::string(std::max(least, longest + 1), '`');
+  return std::string(longest + 1, '`');
 }
 
 std::string span_text(const Span& span) {
@@ -65,7 +66,7 @@ std::string span_text(const Span& span) {
     std::replace(clean.begin(), clean.end(), '\n', ' ');
     // in a table a bar ends the cell, even in code
     replace_all(clean, "|", "\\|");
-    const std::string fence = fence_for(clean, 1);
+    const std::string fence = fence_for(clean);
     const char* space = fence.size() > 1 ? " " : "";
     words = fence + space + clean + space + fence;
   } else {
@@ -84,16 +85,8 @@ std::string line_of(const std::vector<Text>& cells) {
   return line + '\n';
 }
 
-std::string fenced(const std::string& text) {
-  const std::string fence = fence_for(text, 3), clean = clean_utf8(text);
-  return fence + '\n' + clean + (clean.ends_with('\n') ? "" : "\n") + fence + "\n\n";
-}
-
 struct MarkdownBlocks {
   std::string operator()(const Text& text) const { return markdown_of(text) + "\n\n"; }
-  std::string operator()(const Subheading& heading) const {
-    return "### " + markdown_of(heading.words) + "\n\n";
-  }
   std::string operator()(const List& list) const {
     std::string text;
     for (const Text& item : list.items) text += "- " + markdown_of(item) + '\n';
@@ -122,13 +115,10 @@ struct MarkdownBlocks {
     for (const Text& item : notices.items) text += (*this)(styled(item, strong));
     return text;
   }
-  std::string operator()(const Listing& listing) const {
-    if (listing.heading.empty()) return fenced(listing.text);
-    return "<details><summary>" + markdown_of(listing.heading) + "</summary>\n\n" +
-           fenced(listing.text) + "</details>\n\n";
+  template <class Other>
+  std::string operator()(const Other&) const {
+    throw std::logic_error("no page in Markdown has a block of this kind");
   }
-  /// Markdown does not move.
-  std::string operator()(const Replay& replay) const { return (*this)(replay.caption); }
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
-// Writes a page as Markdown (GitHub's), with its figures as files beside it.
+// Writes a page as Markdown (GitHub's), with its figures as files beside it. Pages that are written
+// so have no headings within sections, no listings and no replays: std::logic_error.
 
 #include <string>
 

@@ -202,11 +202,9 @@ std::string plot_command(const std::string& block, const Curve& curve) {
                       curve.dashed ? dashes[std::clamp(curve.fineness, 0, 2)] : "");
       break;
     case Mark::points:
-      text += curve.y_error.empty()
-                  ? printed(" using 1:2 with points pt %d ps %.3g lc rgb %s", shape,
-                            0.35 * curve.width, ink.c_str())
-                  : printed(" using 1:2:3 with yerrorbars pt %d ps %.3g lc rgb %s", shape,
-                            0.35 * curve.width, ink.c_str());
+      text += printed(" using %s pt %d ps %.3g lc rgb %s",
+                      curve.y_error.empty() ? "1:2 with points" : "1:2:3 with yerrorbars", shape,
+                      0.35 * curve.width, ink.c_str());
       break;
     case Mark::area:
       text += printed(" using 1:2:3 with filledcurves fs solid noborder fc rgb %s", ink.c_str());

@@ -239,9 +239,7 @@ Text quantity(double value, const char* unit, int digits) {
   return with_unit(value, number(value, digits), unit);
 }
 
-Text exact_quantity(double value, const char* unit, int digits) {
-  return with_unit(value, exact(value, digits), unit);
-}
+Text exact_quantity(double value, const char* unit) { return with_unit(value, exact(value), unit); }
 
 Text with_error(double value, double error) {
   if (!std::isfinite(value) || !std::isfinite(error) || error == 0.0) return number(value);

@@ -8,6 +8,7 @@
 // and users cannot become markup. Only marked() reads the notation; it is given literals of this
 // program and its text files (words), never anything from outside.
 
+#include <concepts>
 #include <functional>
 #include <map>
 #include <string>
@@ -78,11 +79,12 @@ Text number(double value, int digits = 3);
 
 /// The same without trailing zeros: settings and counts, which are exact.
 Text exact(double value, int digits = 7);
+Text exact(std::integral auto count) { return exact(static_cast<double>(count)); }
 
 /// number or exact, narrow space, unit; the dash alone when the value isn't known. `unit` is in
 /// the notation of marked(); empty: none.
 Text quantity(double value, const char* unit, int digits = 3);
-Text exact_quantity(double value, const char* unit, int digits = 7);
+Text exact_quantity(double value, const char* unit);
 
 /// "1.23 ± 0.04": the error to two digits of its own; no error when it isn't known.
 Text with_error(double value, double error);

@@ -294,9 +294,8 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   panel.y_max = 1.1 * top;
   if (has_fits) panel.curves.push_back(fit_curve(summary, unit.factor));
   page::Text caption = page::words(
-      "run.fig04.paper",
-      {{"periods", page::exact(static_cast<double>(cycles.loop_last - cycles.loop_first))},
-       {"smoothing", page::exact_quantity(1e3 * cycles.smoothing, "ms")}});
+      "run.fig04.paper", {{"periods", page::exact(cycles.loop_last - cycles.loop_first)},
+                          {"smoothing", page::exact_quantity(1e3 * cycles.smoothing, "ms")}});
   const ForceLaw& law = summary.law;
   if (has_fits)
     caption +=

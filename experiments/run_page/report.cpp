@@ -111,9 +111,9 @@ void add_wall(const RunSummary& summary, Results& results) {
                 styled("moving phases: up to " + page::quantity(1e3 * summary.wall.v_peak, "mm/s"),
                        page::note));
   if (!summary.wall.periods.empty())
-    results.plain("jammed stretch found in",
-                  page::exact(summary.wall.jammed_periods) + " of " +
-                      page::exact(static_cast<double>(summary.wall.periods.size())) + " periods");
+    results.plain("jammed stretch found in", page::exact(summary.wall.jammed_periods) + " of " +
+                                                 page::exact(summary.wall.periods.size()) +
+                                                 " periods");
   results.group("Motion of the wall");
   results.plain("first contraction", page::quantity(1e3 * summary.contraction.size, "mm"));
   results.compared("90\u202f% of it reached at", page::quantity(summary.contraction.time90, "s"),
@@ -325,7 +325,7 @@ void write_report(const std::filesystem::path& folder) {
   if (!is_clean(summary)) data.notices.insert(data.notices.begin(), words.begin(), words.end());
   page::Page page;
   page.title = name_of_run(data);
-  page::Text extent = page::exact(static_cast<double>(summary.steps)) + " steps, " +
+  page::Text extent = page::exact(summary.steps) + " steps, " +
                       page::exact_quantity(summary.duration, "s") + " simulated";
   if (summary.contacts.samples)
     extent += ", " + page::number(summary.contacts.mean, 4) + " contact points on average";

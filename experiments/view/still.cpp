@@ -36,8 +36,6 @@ Colour ramp_colour(double share) {
   return stops[k] + (stops[k + 1] - stops[k]) * static_cast<float>(at - static_cast<double>(k));
 }
 
-void blend(Colour& pixel, const Colour& colour, float share) { pixel += share * (colour - pixel); }
-
 /// A pinhole or, far away, the sun: from the world to column, row and depth. Depth is linear in the
 /// picture and grows with the distance.
 struct Lens {
@@ -304,7 +302,7 @@ class Camera {
   void fill(const std::vector<Vec3>& corners, const Colour& colour, float share) {
     scan(lens_, corners, [&](int x, int y, float depth) {
       const size_t here = lens_.at(x, y);
-      if (depth < depth_[here]) blend(pixels_[here], colour, share);
+      if (depth < depth_[here]) pixels_[here] += share * (colour - pixels_[here]);
     });
   }
 

@@ -59,27 +59,38 @@ function dataset_of(curve) {
   };
 }
 
-/// What is between the points of areas and their lower bounds, below all else.
-const areas = {
-  id: "areas",
+/// Below all else: what is between the points of areas and their lower bounds, then bars of the
+/// errors of points.
+const extents = {
+  id: "extents",
   beforeDatasetsDraw(chart) {
     const { ctx, scales: { x, y }, chartArea: { left, top, width, height } } = chart;
+    const level = (value) => y.getPixelForValue(Math.max(value, y.min));
+    const shown = chart.data.datasets.map((set, k) => [set, chart.getDatasetMeta(k).data])
+      .filter((_, k) => chart.isDatasetVisible(k));
     ctx.save();
     ctx.beginPath();
     ctx.rect(left, top, width, height);
     ctx.clip();
-    chart.data.datasets.forEach((set, k) => {
-      if (!set.is_area || !chart.isDatasetVisible(k)) return;
+    for (const [set] of shown.filter(([{ is_area }]) => is_area)) {
       const points = set.data.filter((point) => point.y !== null);
-      const place = (point, height_) =>
-        [x.getPixelForValue(point.x), y.getPixelForValue(Math.max(height_, y.min))];
       ctx.fillStyle = set.borderColor;
       ctx.beginPath();
-      for (const point of points) ctx.lineTo(...place(point, point.y));
-      for (const point of points.reverse()) ctx.lineTo(...place(point, point.low));
+      for (const p of points) ctx.lineTo(x.getPixelForValue(p.x), level(p.y));
+      for (const p of points.reverse()) ctx.lineTo(x.getPixelForValue(p.x), level(p.low));
       ctx.fill();
-    });
+    }
     ctx.restore();
+    for (const [set, places] of shown)
+      places.forEach((place, k) => {
+        const { y: value, error } = set.data[k];
+        if (!(error > 0)) return;
+        Object.assign(ctx, { strokeStyle: set.borderColor, lineWidth: 1.2 });
+        ctx.beginPath();
+        ctx.moveTo(place.x, Math.max(top, level(value - error)));
+        ctx.lineTo(place.x, Math.max(top, level(value + error)));
+        ctx.stroke();
+      });
   },
 };
 
@@ -95,29 +106,6 @@ function line_of(line, chart_points) {
     borderColor: variable("grey"), borderWidth: 1.2, borderDash: [3, 4],
   };
 }
-
-/// Bars of the errors of points, below them.
-const error_bars = {
-  id: "error_bars",
-  beforeDatasetsDraw(chart) {
-    const { ctx, scales: { y }, chartArea } = chart, within = (place) =>
-      Math.min(chartArea.bottom, Math.max(chartArea.top, place));
-    chart.data.datasets.forEach((set, k) => {
-      if (!chart.isDatasetVisible(k)) return;
-      ctx.strokeStyle = set.borderColor;
-      ctx.lineWidth = 1.2;
-      chart.getDatasetMeta(k).data.forEach((point, i) => {
-        const { y: value, error } = set.data[i];
-        if (!(error > 0)) return;
-        const low = value - error > y.min ? y.getPixelForValue(value - error) : chartArea.bottom;
-        ctx.beginPath();
-        ctx.moveTo(point.x, within(low));
-        ctx.lineTo(point.x, within(y.getPixelForValue(value + error)));
-        ctx.stroke();
-      });
-    });
-  },
-};
 
 /// The words of lines across, at their right or upper ends.
 const line_words = {
@@ -196,7 +184,7 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
                                                     hidden: !is_shown(curve) }));
     if (all.length) sets.push(...(figure.lines ?? []).map((line) => line_of(line, all)));
     chart = new Chart(canvas, { type: "line", data: { datasets: sets }, options: options(),
-                                plugins: [areas, error_bars, line_words] });
+                                plugins: [extents, line_words] });
   };
   const keys = key_walk(figure, is_shown, (at) => {
     const found = point_of(at);

@@ -119,21 +119,24 @@ class Data {
     });
     this.reach = this.head.shape_of.map((shape) => reach[shape]);
     const force = parts.contact_forces, strength = new Float32Array(count);
-    this.contactFrames = (this.head.contact_frames || []).map((frame, k) => ({ frame, k }));
     let at = 0;
-    for (const [k, frame] of this.contactFrames.entries()) {
-      frame.begin = at;
-      for (let last = 0; at < frame.begin + this.head.contact_counts[k]; ++at) {
+    this.contactFrames = (this.head.contact_frames || []).map((frame, k) => {
+      const begin = at, end = begin + this.head.contact_counts[k];
+      for (let last = 0; at < end; ++at) {
         last = a[at] = last + words[at];
         b[at] = a[at] + words[count + at];
         strength[at] = (force[at] / 4095) ** 2 * this.head.largest_force;
       }
-      frame.end = at;
-    }
+      return { frame, begin, end };
+    });
     this.contact = { a, b, force: strength, places: parts.contact_places, count,
       mobilised: parts.contact_mobilised };
   }
 
+  // Where the state has a grain.
+  centreOf(grain) {
+    return Array.from(this.state.subarray(8 * grain, 8 * grain + 3));
+  }
   // Where a contact is while grain a is where the state has it.
   contactPlace(c) {
     const { a, places, count } = this.contact, g = a[c], reach = 1.02 * this.reach[g] / 127;

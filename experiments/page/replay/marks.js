@@ -97,18 +97,14 @@ class Marks {
     addRod(rods, neck, 0.028 * radius, middle, 0.001 * radius, colour);
   }
 
-  centreOf(body) {
-    return Array.from(this.data.state.subarray(8 * body, 8 * body + 3));
-  }
-
   addChains(time, rods, { threshold }, cut) {
     const chains = this.chainsIn(this.data.contactsAt(time));
     const mean = chains.reduce((sum, chain) => sum + chain[2], 0) / Math.max(1, chains.length);
     this.shownChains = 0;
     for (const [a, b, force, c] of chains) {
       if (force < threshold * mean) continue;
-      const from = this.centreOf(a);
-      const to = b < this.data.grains ? this.centreOf(b) : this.data.contactPlace(c);
+      const { data } = this, from = data.centreOf(a);
+      const to = b < data.grains ? data.centreOf(b) : data.contactPlace(c);
       if (cut && dot(cut, from) > cut[3] && dot(cut, to) > cut[3]) continue;
       const width = 0.24 * this.meanReach * Math.min(force / this.topChain, 1.3);
       addRod(rods, from, width, to, width,

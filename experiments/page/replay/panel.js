@@ -121,11 +121,10 @@ function drawFacts(data, picked, time) {
   const { frame, next, u } = data.frameAt(time), at = data.contactsAt(time);
   const v = [0, 1, 2].map((k) =>
     data.velocityOf(frame, picked, k) * (1 - u) + data.velocityOf(next, picked, k) * u);
-  const place = Array.from(data.state.subarray(8 * picked, 8 * picked + 3));
   const rows = [["size", shown(1e3 * data.size[picked]) + " mm"],
     ["mass", data.mass[picked] < 1 ? shown(1e3 * data.mass[picked]) + " g" :
       shown(data.mass[picked]) + " kg"],
-    ["place / mm", place.map((p) => shown(1e3 * p, 4)).join("  ")],
+    ["place / mm", data.centreOf(picked).map((p) => shown(1e3 * p, 4)).join("  ")],
     ["velocity / m/s", v.map((p) => shown(p, 2)).join("  ")], ["speed", shown(norm(v)) + " m/s"]];
   if (at.frame >= 0) {
     const { a, b, force } = data.contact, partners = new Map();

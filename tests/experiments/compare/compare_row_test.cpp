@@ -28,6 +28,10 @@ TEST_CASE("A row survives its file to the last bit") {
   REQUIRE(back.history.size() == 2);
   CHECK(back.history[1].error == 5e-324);
   CHECK(compare_csv({row}).find("\"a, \"\"b\"\"\"") != std::string::npos);
+  CompareRow asked = row;
+  asked.word = "a.dat";  // in no file
+  const CompareRow again = compare_row_of_json(to_json(row), "file", asked);
+  CHECK((again.word == "a.dat" && to_json(again) == to_json(row)));
   CHECK_THROWS_WITH(compare_row_of_json("{}", "row.json"),
                     Catch::StartsWith("row.json: is no row"));
 }

@@ -6,6 +6,7 @@
 #include "tests/catch.hpp"
 #include "tests/experiments/page/small_page.hpp"
 #include "tests/support/page_sample.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace ballast::page {
 namespace {
@@ -163,8 +164,27 @@ TEST_CASE("an inlined SVG has ids of its own and nothing that points outside") {
                        Contains("href='#fig03-gpPt0'") && Contains("url(#fig03-b)"));
   CHECK(inline_svg("<svg><!-- no end", "a", "t") == "<svg role=\"img\">");  // cut, not copied
   CHECK(inline_svg("", "a", "t").empty());
-  CHECK_THAT(part, Contains("rgb(0,114,178)") && Contains("<title>x &lt; y &amp; t</title>") &&
-                       Contains("role=\"img\""));
+  CHECK_THAT(part, Contains("<title>x &lt; y &amp; t</title>") && Contains("role=\"img\""));
+}
+
+TEST_CASE("every colour that gnuplot writes is one of the page's") {
+  if (gnuplot_version().empty()) return;
+  const TemporaryFolder folder;
+  Panel panel{.x_label = "x", .y_label = "y"};
+  for (const Mark mark : {Mark::line, Mark::points, Mark::area})
+    panel.curves.push_back({.x = {0.0, 1.0},
+                            .y = {1.0, 2.0},
+                            .title = "t",
+                            .mark = mark,
+                            .opacity = 0.5,
+                            .y_low = {0.0, 0.0}});
+  panel.lines = {{.value = 1.0, .label = "bound"}};
+  const std::string svg = render_svg({.name = "a", .panels = {panel}}, folder.path()),
+                    style = html_of(Page{});
+  size_t count = 0;
+  for (size_t at = 0; (at = svg.find("rgb(", at)) != std::string::npos; ++at, ++count)
+    CHECK_THAT(style, Contains("=\"" + svg.substr(at, svg.find(')', at) + 1 - at) + "\"]{"));
+  CHECK(count > 0);
 }
 
 TEST_CASE("a replay stands in one page with its data, its script and a still picture") {

@@ -7,7 +7,12 @@ namespace ballast::page {
 namespace {
 
 TEST_CASE("a small page as Markdown, to the letter") {
-  CHECK(markdown_of(small_page()) == R"(# A small page
+  Page page = small_page();
+  for (Section& section : page.sections)
+    std::erase_if(section.blocks, [](const Block& block) {
+      return std::holds_alternative<Subheading>(block) || std::holds_alternative<Listing>(block);
+    });
+  CHECK(markdown_of(page) == R"(# A small page
 
 2 steps
 
@@ -18,8 +23,6 @@ made by hand
 **no scene.toml**
 
 ## In *numbers*
-
-### h
 
 A paragraph.
 
@@ -44,19 +47,6 @@ Costs:
 
 - one
 - two
-
-````
-a <b>
-```
-````
-
-<details><summary>All of it</summary>
-
-```
-x = 1
-```
-
-</details>
 )");
 }
 
@@ -70,6 +60,10 @@ TEST_CASE("characters that Markdown reads are escaped, and only those") {
   CHECK(written("> a") == "&gt; a");
   CHECK(written("a\nb\x1b") == "a<br>b\xef\xbf\xbd");
   CHECK(markdown_of(Text("a`b|c", code)) == "`` a`b\\|c ``");
+}
+
+TEST_CASE("a block that no page in Markdown has is a fault of the program") {
+  CHECK_THROWS_AS(markdown_of(small_page()), std::logic_error);
 }
 
 TEST_CASE("a cell cannot end its row") {

@@ -111,6 +111,7 @@ TEST_CASE("what is not known is a dash, with no unit and no error") {
 
 TEST_CASE("settings without trailing zeros, units, errors, deviations, intervals, verdicts") {
   CHECK(plain_words(exact(1200.0)) == "1200");
+  CHECK(exact(size_t{1200}) == exact(1200.0));
   CHECK(plain_words(exact(2e-4)) == "2×10⁻⁴");
   CHECK(plain_words(exact(-0.54)) == "−0.54");
   CHECK(plain_words(exact(1e6)) == "1×10⁶");
