@@ -82,6 +82,11 @@ struct SweepWork {
   }
 };
 
+/// "1 thread", "2 threads"
+std::string thread_words(int threads) {
+  return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
 /// CPU ns per item of each repetition. The first call is not timed: it makes what others find.
 std::vector<double> samples_of(const Kernel& kernel, const KernelBenchOptions& options) {
   kernel.call();
