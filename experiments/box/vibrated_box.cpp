@@ -6,7 +6,6 @@
 #include "geometry/shape/mesh_file.hpp"
 #include "geometry/shape/pose.hpp"
 #include "platform/text.hpp"
-#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace {

@@ -1,7 +1,6 @@
 // Tables of cases: what was changed, each case at the values it was driven at, and what follows,
 // sample by sample. A section is a row of one of the lists of tables below and its words.
 
-#include <algorithm>
 #include <set>
 
 #include "experiments/paper/sections.hpp"
