@@ -277,13 +277,10 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
                                            int threads) {
   std::map<std::string, std::vector<const BenchStep*>> groups;
   double fastest = 0.0;
-  // As the wall's cycles have it: what is slow beside the fastest of these steps is jammed.
   for (const BenchStep& step : steps) fastest = std::max(fastest, std::abs(step.record.wall_v));
   for (const BenchStep& step : steps) {
-    const double v = step.record.wall_v;
-    const bool is_jammed = std::abs(v) <= jammed_speed * fastest;
     groups["all"].push_back(&step);
-    groups[is_jammed ? "jammed" : v > 0.0 ? "active" : "passive"].push_back(&step);
+    groups[wall_state(step.record.wall_v, fastest)].push_back(&step);
   }
   std::vector<Measurement> result;
   for (const char* name : {"all", "passive", "jammed", "active"})
