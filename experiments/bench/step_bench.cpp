@@ -319,7 +319,6 @@ double ScalingPoint::value(const std::string& name) const {
 }
 
 std::pair<int, int> tiles_for(long grains, int block) {
-  // As nearly square as whole numbers allow.
   const double tiles = std::max(1.0, static_cast<double>(grains) / block);
   const int nx = std::max(1, static_cast<int>(std::lround(std::sqrt(tiles))));
   return {nx, std::max(1, static_cast<int>(std::lround(tiles / nx)))};
@@ -335,7 +334,6 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
       point.threads = threads;
       std::tie(point.nx, point.ny) = tiles_for(grains, block);
       point.grains = static_cast<double>(point.nx) * point.ny * block;
-      // The peak of memory is a process' own: a child for each packing keeps them apart.
       const ChildResult child = run_in_child(3600.0, [&] {
         measure_packing(box, options, point);
         Packer packer;

@@ -215,7 +215,6 @@ std::string packing_key(const Scene& scene) {
   return content_key(text.str());
 }
 
-/// The box less its margins; the one on top is measured from the packing's own height.
 ControlVolume box_control_volume(const Scene& scene, double top) {
   const ControlVolumeSpec& margin = scene.control_volume;
   return {Vec3(margin.margin_x, margin.margin_y, margin.margin_floor),

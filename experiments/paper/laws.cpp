@@ -379,7 +379,7 @@ std::vector<CurvePoint> points_beside(const char* name, const OneCurve& all,
 }  // namespace
 
 Eigen::VectorXd LogPolynomial::row(double x) const {
-  Eigen::VectorXd powers(fit.value.size() ? fit.value.size() : 3);
+  Eigen::VectorXd powers(fit.value.size());
   for (Eigen::Index k = 0; k < powers.size(); ++k)
     powers[k] = std::pow(std::log(x / middle), static_cast<double>(k));
   return powers;
