@@ -113,15 +113,10 @@ std::string bench_ratio_table(const BenchResult& a, const BenchResult& b) {
 
 std::string measurement_table(const std::vector<Measurement>& measurements) {
   std::string table;
-  for (const Measurement& m : measurements) {
+  for (const Measurement& m : measurements)
     table += printed("%-58s %11.5g  mean %11.5g  [%.4g, %.4g] %s, %ld\n", m.full_name().c_str(),
                      m.median, m.mean, m.low, m.high, m.unit.c_str(), m.samples);
-  }
   return table;
-}
-
-std::string thread_words(int threads) {
-  return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
 }  // namespace ballast

@@ -43,7 +43,4 @@ std::string bench_ratio_table(const BenchResult& a, const BenchResult& b);
 /// The same measurements as a table for the terminal.
 std::string measurement_table(const std::vector<Measurement>& measurements);
 
-/// "1 thread", "2 threads"
-std::string thread_words(int threads);
-
 }  // namespace ballast

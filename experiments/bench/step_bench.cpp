@@ -82,6 +82,11 @@ struct SweepWork {
   }
 };
 
+/// "1 thread", "2 threads"
+std::string thread_words(int threads) {
+  return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
 /// CPU ns per item of each repetition. The first call is not timed: it makes what others find.
 std::vector<double> samples_of(const Kernel& kernel, const KernelBenchOptions& options) {
   kernel.call();
@@ -272,13 +277,10 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
                                            int threads) {
   std::map<std::string, std::vector<const BenchStep*>> groups;
   double fastest = 0.0;
-  // As the wall's cycles have it: what is slow beside the fastest of these steps is jammed.
   for (const BenchStep& step : steps) fastest = std::max(fastest, std::abs(step.record.wall_v));
   for (const BenchStep& step : steps) {
-    const double v = step.record.wall_v;
-    const bool is_jammed = std::abs(v) <= jammed_speed * fastest;
     groups["all"].push_back(&step);
-    groups[is_jammed ? "jammed" : v > 0.0 ? "active" : "passive"].push_back(&step);
+    groups[wall_state(step.record.wall_v, fastest)].push_back(&step);
   }
   std::vector<Measurement> result;
   for (const char* name : {"all", "passive", "jammed", "active"})
@@ -317,7 +319,6 @@ double ScalingPoint::value(const std::string& name) const {
 }
 
 std::pair<int, int> tiles_for(long grains, int block) {
-  // As nearly square as whole numbers allow.
   const double tiles = std::max(1.0, static_cast<double>(grains) / block);
   const int nx = std::max(1, static_cast<int>(std::lround(std::sqrt(tiles))));
   return {nx, std::max(1, static_cast<int>(std::lround(tiles / nx)))};
@@ -333,7 +334,6 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
       point.threads = threads;
       std::tie(point.nx, point.ny) = tiles_for(grains, block);
       point.grains = static_cast<double>(point.nx) * point.ny * block;
-      // The peak of memory is a process' own: a child for each packing keeps them apart.
       const ChildResult child = run_in_child(3600.0, [&] {
         measure_packing(box, options, point);
         Packer packer;

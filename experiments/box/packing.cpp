@@ -136,7 +136,7 @@ class Depositor {
     while (packing_.state.step < last) {
       const StepRecord record = stepper.step(packing_.state, packing_.memory);
       rms_velocity_ = grain_rms_velocity(system, packing_.state);
-      const bool goes_on = progress_(stage_, packing_.state.time, rms_velocity_, record);
+      const bool goes_on = progress_(stage_, rms_velocity_, record);
       // The state that ends a stage is never saved within it: who went on from there would make
       // another step.
       if (stage_ == BoxStage::rain && rests()) break;
@@ -228,8 +228,8 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   // when the rain will rest nobody knows
   const double end[] = {std::numeric_limits<double>::quiet_NaN(), scene.deposit.lid_time,
                         scene.deposit.settle_time};
-  const auto show = [&](BoxStage stage, double time, double velocity, const StepRecord& record) {
-    progress.show(name_of(stage), time, end[static_cast<int>(stage)], record, velocity);
+  const auto show = [&](BoxStage stage, double velocity, const StepRecord& record) {
+    progress.show(name_of(stage), end[static_cast<int>(stage)], record, velocity);
     return order.goes_on();
   };
   const bool is_done = deposit(scene, rain, part, show, packing, is_tiled ? &tile : nullptr);

@@ -16,10 +16,9 @@ namespace ballast {
 /// "packing", its key packing_key().
 using Packing = Checkpoint;
 
-/// Says how far a stage is: simulated time of the stage, rms velocity [m/s], record of the last
-/// step. Returning false stops the deposit (interrupt): it can be continued from `part`.
-using DepositProgress =
-    std::function<bool(BoxStage, double time, double rms_velocity, const StepRecord&)>;
+/// Says how far a stage is: rms velocity [m/s], record of the last step. Returning false stops the
+/// deposit (interrupt): it can be continued from `part`.
+using DepositProgress = std::function<bool(BoxStage, double rms_velocity, const StepRecord&)>;
 
 /// Deposits. `part`: checkpoint file of an unfinished deposit, continued when it is there, written
 /// every record.checkpoint_seconds and on interrupt. `tile`: the packing of one tile, of a scene

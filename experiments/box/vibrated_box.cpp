@@ -6,7 +6,6 @@
 #include "geometry/shape/mesh_file.hpp"
 #include "geometry/shape/pose.hpp"
 #include "platform/text.hpp"
-#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace {
@@ -216,7 +215,6 @@ std::string packing_key(const Scene& scene) {
   return content_key(text.str());
 }
 
-/// The box less its margins; the one on top is measured from the packing's own height.
 ControlVolume box_control_volume(const Scene& scene, double top) {
   const ControlVolumeSpec& margin = scene.control_volume;
   return {Vec3(margin.margin_x, margin.margin_y, margin.margin_floor),

@@ -2,7 +2,6 @@
 // one; the collection of captured problems.
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -21,7 +20,6 @@
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
-#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {

@@ -21,7 +21,6 @@
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "solvers/seam/run_solver.hpp"
-#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {

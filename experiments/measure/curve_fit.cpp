@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <unsupported/Eigen/SpecialFunctions>
 
@@ -60,17 +61,10 @@ ArrayXd peaked_shape(const ArrayXd& frequency, double critical) {
 }  // namespace
 
 Statistics statistics(std::span<const double> values) {
-  Statistics result;
-  double sum = 0.0;
-  for (double value : values) {
-    if (!std::isfinite(value)) continue;
-    sum += value;
-    result.min = result.samples ? std::min(result.min, value) : value;
-    result.max = result.samples ? std::max(result.max, value) : value;
-    ++result.samples;
-  }
-  if (result.samples) result.mean = sum / static_cast<double>(result.samples);
-  return result;
+  const std::vector<double> finite = finite_of(values);
+  if (finite.empty()) return {};
+  return {std::accumulate(finite.begin(), finite.end(), 0.0) / static_cast<double>(finite.size()),
+          std::ranges::min(finite), std::ranges::max(finite), std::ssize(finite)};
 }
 
 double quantile(std::span<const double> values, double p) {

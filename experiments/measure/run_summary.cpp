@@ -59,12 +59,9 @@ FirstContraction first_contraction(std::span<const StepRecord> steps, double fre
   for (const StepRecord& step : steps)
     if (step.time <= end) x.push_back(step.wall_x);
   contraction.size = -statistics(x).min;
-  // the first time that it is nearly there
-  for (const StepRecord& step : steps)
-    if (-step.wall_x >= 0.9 * contraction.size) {
-      contraction.time90 = step.time;
-      break;
-    }
+  const auto nearly_there = std::ranges::find_if(
+      steps, [&](const StepRecord& step) { return -step.wall_x >= 0.9 * contraction.size; });
+  if (nearly_there != steps.end()) contraction.time90 = nearly_there->time;
   return contraction;
 }
 
@@ -95,11 +92,10 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
   compaction.initial = facts.solid_fraction_initial;
   compaction.last = steps.back().solid_fraction;
   // The reference is the solid fraction where the paper's window begins.
-  for (const StepRecord& row : steps)
-    if (row.time >= paper_window.begin - 0.25 * facts.step) {
-      compaction.reference = row.solid_fraction;
-      break;
-    }
+  const auto begin = std::ranges::find_if(steps, [&](const StepRecord& step) {
+    return step.time >= paper_window.begin - 0.25 * facts.step;
+  });
+  if (begin != steps.end()) compaction.reference = begin->solid_fraction;
   // rho at the end of a period minus rho at its begin: both at the same phase of the load, so that
   // the swing within the period drops out; not known when the begin is not in the record
   for (const WallPeriod& period : periods)
@@ -275,7 +271,6 @@ std::vector<Displacement> cell_means(std::span<const Displacement> displacements
 }
 
 double eq3_displacement(const RunFacts& facts) {
-  // Eq. 3 of the paper: m / (m + m_w) (m g / f_max) g / nu^2, m of all grains, m_w of the wall.
   const double m = facts.grain_mass, g = facts.gravity;
   return m / (m + facts.wall_mass) * m * g / facts.f_max * g / (facts.frequency * facts.frequency);
 }

@@ -50,15 +50,11 @@ WallPeriod make_period(std::span<const StepRecord> steps, double begin, double e
   // the sample before the period is its begin: the first one is already a step on
   const size_t start = period.first > 0 ? period.first - 1 : period.first;
   period.net = steps[period.last - 1].wall_x - steps[start].wall_x;
-  std::vector<double> v, solid;
-  for (size_t k = period.first; k < period.last; ++k) {
-    v.push_back(steps[k].wall_v);
-    solid.push_back(steps[k].solid_fraction);
-  }
-  const Statistics speeds = statistics(v);
+  const auto within = steps.subspan(period.first, period.last - period.first);
+  const Statistics speeds = statistics(record_column(within, &StepRecord::wall_v));
   period.speed_out = speeds.max;
   period.speed_in = -speeds.min;
-  period.solid_fraction = statistics(solid).mean;
+  period.solid_fraction = statistics(record_column(within, &StepRecord::solid_fraction)).mean;
   return period;
 }
 

@@ -33,6 +33,7 @@
 // because the load near its minimum is f_max (omega t)^2/4: the stroke goes from F = f at
 // t = -t_0 = -(2/omega) sqrt(F/f_max) to rest at 2 t_0, over (9/4) F t_0^2/(m_w + M).
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -51,6 +52,13 @@ size_t first_after(std::span<const StepRecord> steps, double t, double h);
 
 /// What is no faster than this part of the fastest is slow.
 inline constexpr double jammed_speed = 0.02;
+
+/// "jammed", "active" or "passive" of one step by itself, whose load is not looked at: jammed is
+/// what is slow beside the `fastest` [m/s].
+inline const char* wall_state(double velocity, double fastest) {
+  if (std::abs(velocity) <= jammed_speed * fastest) return "jammed";
+  return velocity > 0.0 ? "active" : "passive";
+}
 
 /// One whole period of the load, (begin, end], from the load's falling mean to the next.
 struct WallPeriod {

@@ -1,7 +1,5 @@
 #include "experiments/paper/archive.hpp"
 
-#include <algorithm>
-
 #include "experiments/box/packing.hpp"
 #include "experiments/page/text.hpp"
 #include "platform/atomic_file.hpp"

@@ -1,7 +1,6 @@
 // Tables of cases: what was changed, each case at the values it was driven at, and what follows,
 // sample by sample. A section is a row of one of the lists of tables below and its words.
 
-#include <algorithm>
 #include <set>
 
 #include "experiments/paper/sections.hpp"
@@ -9,25 +8,20 @@
 namespace ballast {
 namespace {
 
-/// The columns of every table of cases, and their names with units.
-struct StageColumn {
-  const char* head;
-  double factor;  ///< from SI
-  RunMeasure value;
-};
-constexpr StageColumn stage_columns[] = {{"Δx~max~ (mm)", 1e3, "rise"},
-                                         {"C", 1.0, "prefactor"},
-                                         {"C by the theory", 1.0, "prefactor_theory"},
-                                         {"F/(m g)", 1.0, "push_over_weight"},
-                                         {"f/(m g) at the start", 1.0, "yield_over_weight"},
-                                         {"v~max~ (mm/s)", 1e3, "speed_in"},
-                                         {"net a period (mm)", 1e3, "net"},
-                                         {"ρ before", 1.0, "density_before"},
-                                         {"Δρ~1~ (10^−4^)", 1e4, "gain"},
-                                         {"η (10^−3^/s)", 1e3, "rate"},
-                                         {"η, 0.4–1 s", 1e3, "rate_common"},
-                                         {"t~90~ (s)", 1.0, "first_time90"},
-                                         {"error (g·h)", 1.0, "error"}};
+/// The columns of every table of cases.
+constexpr LabelledMeasure stage_columns[] = {{"rise", "Δx~max~ (mm)", 1e3},
+                                             {"prefactor", "C", 1.0},
+                                             {"prefactor_theory", "C by the theory", 1.0},
+                                             {"push_over_weight", "F/(m g)", 1.0},
+                                             {"yield_over_weight", "f/(m g) at the start", 1.0},
+                                             {"speed_in", "v~max~ (mm/s)", 1e3},
+                                             {"net", "net a period (mm)", 1e3},
+                                             {"density_before", "ρ before", 1.0},
+                                             {"gain", "Δρ~1~ (10^−4^)", 1e4},
+                                             {"rate", "η (10^−3^/s)", 1e3},
+                                             {"rate_common", "η, 0.4–1 s", 1e3},
+                                             {"first_time90", "t~90~ (s)", 1.0},
+                                             {"error", "error (g·h)", 1.0}};
 
 /// A table of what some cases come to.
 struct CaseTable {
@@ -114,12 +108,13 @@ struct Case {
 page::Table stage_table(const std::vector<Case>& cases, const std::string& unit,
                         PaperSection& section) {
   page::Table table = page::words_table("case_columns");
-  for (const StageColumn& column : stage_columns) table.head.push_back(page::marked(column.head));
+  for (const LabelledMeasure& column : stage_columns)
+    table.head.push_back(page::marked(column.label));
   for (const Case& row : cases)
     for (const Group& group : row.groups) {
       table.rows.push_back({row.name, group.label + unit, std::to_string(group.samples.size())});
-      for (const StageColumn& column : stage_columns)
-        table.rows.back().push_back(words_of(group.mean(column.value), column.factor));
+      for (const LabelledMeasure& column : stage_columns)
+        table.rows.back().push_back(words_of(group.mean(column.measure), column.factor));
       page::Values cited{{"case", row.name}, {"at", group.label}};
       for (const RunMeasure measure : {"prefactor", "aspect", "height", "grain_mass"})
         cited.emplace(measure, page::number(group.mean(measure).mean));
@@ -307,10 +302,10 @@ void fill_replicas(PaperData& data, PaperSection& section) {
   }
   if (slow.samples.size() + fast.samples.size() < 2) return;
   page::Table table = page::words_table("replicas.table");
-  for (const StageColumn& column : stage_columns) {
-    table.rows.push_back({page::marked(column.head)});
+  for (const LabelledMeasure& column : stage_columns) {
+    table.rows.push_back({page::marked(column.label)});
     for (const Group& group : {slow, fast}) {
-      const SampleMean mean = group.mean(column.value);
+      const SampleMean mean = group.mean(column.measure);
       table.rows.back().push_back(page::number(column.factor * mean.mean));
       table.rows.back().push_back(scatter_words(mean));
     }

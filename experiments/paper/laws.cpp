@@ -207,18 +207,11 @@ page::Values words_for(const OneCurve& all) {
 // Power laws and lines through the origin: Figs. 9, 10 and 11, C against its theory and against the
 // shape of the box. A figure is a row of `laws` below and its words.
 
-/// What an axis shows.
-struct PlotAxis {
-  RunMeasure measure;
-  const char* label;
-  double factor;  ///< from SI
-};
-
 /// Measured means against a law y ~ x^exponent, one figure.
 struct Law {
   const char *section, *name;  ///< its words are <name>.title, .paper, .found, .claim
   std::vector<Series> families;
-  PlotAxis x, y;
+  LabelledMeasure x, y;
   double exponent;               ///< of the paper, or of the theory
   double split = not_known;      ///< exponents up to here and from here on are said too; NaN: none
   double reference = not_known;  ///< y = reference x is drawn too
@@ -229,7 +222,7 @@ struct Law {
 /// Figs. 9 to 11, then C along the shape of the box, and against its theory.
 std::vector<Law> all_laws() {
   using enum MarkShape;
-  const PlotAxis rise{"rise", "Δ*x*~max~  (mm)", 1e3},
+  const LabelledMeasure rise{"rise", "Δ*x*~max~  (mm)", 1e3},
       prefactor{"prefactor", "*C* = Δ*x*~max~ / *X*", 1.0},
       frequency{"frequency", "*ν*  (Hz)", 1.0}, speed{"speed_in", "*v*~max~  (mm/s)", 1e3},
       force{"force_over_weight", "*f*~max~ / (*m g*)", 1.0},
@@ -379,7 +372,7 @@ std::vector<CurvePoint> points_beside(const char* name, const OneCurve& all,
 }  // namespace
 
 Eigen::VectorXd LogPolynomial::row(double x) const {
-  Eigen::VectorXd powers(fit.value.size() ? fit.value.size() : 3);
+  Eigen::VectorXd powers(fit.value.size());
   for (Eigen::Index k = 0; k < powers.size(); ++k)
     powers[k] = std::pow(std::log(x / middle), static_cast<double>(k));
   return powers;

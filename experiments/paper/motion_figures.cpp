@@ -216,13 +216,19 @@ page::Text words_of(const PeakedRate& fit) {
          ", Δρ_max/ρ₀ = " + page::number(fit.gain) + ", R² = " + page::number(fit.r2);
 }
 
-/// A corner at the end of the data is none: its interval is open on that side.
-Found found_peak(const PeakedRate& fit, const Points& points, double law_p) {
+/// nu_c of a fit of so many parameters, which is told in `words` too. A corner at the end of the
+/// data is none: its interval is open on that side.
+void claim_peak(const std::string& name, const PeakedRate& fit, int parameters,
+                const Points& points, page::Values& words, PaperSection& section) {
   constexpr double no_bound = 1e9;
-  return {.value = fit.critical,
-          .low = fit.low < 1.05 * points.x.front() ? 0.0 : fit.low,
-          .high = fit.high > 0.95 * points.x.back() ? no_bound : fit.high,
-          .law_p = law_p};
+  const VarianceRatio misfit = misfit_of(fit, points, parameters);
+  words[name] = words_of(fit);
+  words[name + "_misfit"] = words_of(misfit);
+  section.claim("fig13." + name, words, PaperRange::roughly(paper_peak),
+                {.value = fit.critical,
+                 .low = fit.low < 1.05 * points.x.front() ? 0.0 : fit.low,
+                 .high = fit.high > 0.95 * points.x.back() ? no_bound : fit.high,
+                 .law_p = misfit.p});
 }
 
 /// Beyond the maximum the paper's rate falls as 1/nu.
@@ -314,10 +320,9 @@ void fill_density(PaperData& data, PaperSection& section) {
   if (runs.empty()) return;
   constexpr Ink inks[] = {Ink::blue, Ink::vermilion, Ink::green, Ink::purple, Ink::orange};
   Panel panel;
-  for (size_t k = 0; k < runs.size(); ++k) {
+  for (size_t k = 0; k < runs.size(); ++k)
     draw_solid_fraction(runs[k].data, runs[k].summary.compaction.initial,
                         "sample " + std::to_string(k + 1), inks[k % std::size(inks)], 1.6, panel);
-  }
   const auto mean = [&](double Compaction::*value) {
     return mean_over(runs, [&](const RunSummary& s) { return s.compaction.*value; });
   };
@@ -390,18 +395,10 @@ void fill_rates(PaperData& data, PaperSection& section) {
     if (curve.x.size() < 2) return;
     panel.curves.push_back(curve_of(curve, title, ink, shape));
     const PeakedRate free = fit_peaked_rate(curve.x, curve.y);
-    const VarianceRatio free_misfit = misfit_of(free, curve, 2);
-    words[name] = words_of(free);
-    words[name + "_misfit"] = words_of(free_misfit);
-    section.claim("fig13." + name, words, PaperRange::roughly(paper_peak),
-                  found_peak(free, curve, free_misfit.p));
+    claim_peak(name, free, 2, curve, words, section);
     if (!std::isfinite(gain.mean)) continue;
     const PeakedRate fixed = fit_peaked_rate(curve.x, curve.y, gain.mean);
-    const VarianceRatio fixed_misfit = misfit_of(fixed, curve, 1);
-    words[name + "_fixed"] = words_of(fixed);
-    words[name + "_fixed_misfit"] = words_of(fixed_misfit);
-    section.claim("fig13." + name + "_fixed", words, PaperRange::roughly(paper_peak),
-                  found_peak(fixed, curve, fixed_misfit.p));
+    claim_peak(name + "_fixed", fixed, 1, curve, words, section);
     if (name != "own") continue;
     if (std::isfinite(free.critical))
       panel.curves.push_back(law_curve(free, curve, "Eq. 5, both free", Ink::black));

@@ -22,6 +22,14 @@ namespace {
 
 using Run = const RunSummary&;
 
+/// A number of a run. NaN: not known in this run.
+struct RunColumn {
+  const char* name;  ///< snake_case
+  const char* unit;  ///< "1" without one
+  const char* meaning;
+  double (*value)(Run run);
+};
+/// The columns of runs.csv after its texts.
 const RunColumn all_columns[] = {
     // what was set
     {"seed", "1", "of the grains: the sample", [](Run r) { return 1.0 * r.facts.seed; }},
@@ -163,8 +171,6 @@ std::vector<PlannedRun> read_campaign(const CampaignSettings& settings) {
 std::string stage_of(const PlannedRun& run) {
   return run.name.substr(0, run.name.find_first_of("-."));
 }
-
-std::span<const RunColumn> run_columns() { return all_columns; }
 
 RunRow::RunRow() : numbers(std::size(all_columns), not_known) {}
 

@@ -35,16 +35,6 @@ std::vector<PlannedRun> read_campaign(const CampaignSettings& settings);
 /// The stage of a run: its name to the first of "-.".
 std::string stage_of(const PlannedRun& run);
 
-/// A number of a run. NaN: not known in this run.
-struct RunColumn {
-  const char* name;  ///< snake_case
-  const char* unit;  ///< "1" without one
-  const char* meaning;
-  double (*value)(const RunSummary& run);
-};
-/// The columns of runs.csv after the texts name, stage, key, record, solver.
-std::span<const RunColumn> run_columns();
-
 /// A number of a run by its name: a column of runs.csv, or what follows from some:
 ///   relative_gain  Delta rho_1/rho_0
 ///   grain_share    m/(m + m_w)
@@ -61,7 +51,7 @@ struct RunRow {
   std::string key;          ///< of the resolved scene: the folder of the record
   std::string record;  ///< hash of the record's steps without wall clock: equal runs, equal hash
   std::string solver;
-  std::vector<double> numbers;  ///< as run_columns()
+  std::vector<double> numbers;  ///< the columns of runs.csv after these texts; NaN: not known
 
   /// Nothing is known yet.
   RunRow();

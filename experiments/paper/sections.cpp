@@ -90,8 +90,7 @@ std::vector<page::Text> origin_of(PaperData& data) {
 }  // namespace
 
 const char* word_of(Agreement agreement) {
-  constexpr const char* words[] = {"agrees", "partly", "DIFFERS", "reported"};
-  return words[static_cast<size_t>(agreement)];
+  return name_in({"agrees", "partly", "DIFFERS", "reported"}, agreement);
 }
 
 PaperRange PaperRange::widened() const {

@@ -112,6 +112,13 @@ page::Text words_with_interval(const SampleMean& mean);
 /// Of a difference of logarithms: "+3.1 % [0.2, 6.1]"; one sample has no interval.
 page::Text words_of_change(const SampleMean& change);
 
+/// A measure as figures and tables show it.
+struct LabelledMeasure {
+  RunMeasure measure;
+  const char* label;  ///< with its unit, in the notation of page::marked()
+  double factor;      ///< from SI
+};
+
 /// Points with bars.
 Curve curve_of(const Points& points, const page::Text& title, Ink ink,
                MarkShape shape = MarkShape::circle);

@@ -105,7 +105,6 @@ ModelMotion integrate(const WallModel& model, int parts) {
     if (phase == ModelPhase::in && wall.x <= -model.contraction) {
       wall = {-model.contraction, 0.0};
       phase = ModelPhase::jammed_after;
-      motion.jams = true;
     }
   }
   return motion;

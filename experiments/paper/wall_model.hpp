@@ -24,7 +24,6 @@ struct ModelMotion {
   std::vector<double> time, x, v, force;  ///< [s], [m] outward, [m/s], f_g [N]
   double rise = 0.0;                      ///< Delta x_max [m]
   double speed_in = 0.0;                  ///< v_max [m/s]
-  bool jams = false;  ///< the wall comes back to its jamming position within the period
 };
 
 /// m_w dv/dt = f_g - f(t) by Heun's rule, `parts` steps a period: out while f_g = active(x), in

@@ -15,19 +15,18 @@ Progress::Progress(Style style)
 Progress::Progress(Style style, std::ostream& out, std::function<double()> clock)
     : line_(style, out), clock_(std::move(clock)) {}
 
-void Progress::show(std::string_view label, double time, double total, const StepRecord& record,
+void Progress::show(std::string_view label, double total, const StepRecord& record,
                     double rms_velocity) {
   if (line_.style() == Style::quiet) return;
   if (label != label_) finish();
   const double now = clock_();
   if (++steps_ == 0) {
     first_clock_ = now;
-    first_time_ = time;
+    first_time_ = record.time;
     // a line at the first step would only say that nothing is known yet
     last_written_ = line_.style() == Style::bar ? now - line_.interval() : now;
   }
   label_.assign(label);
-  time_ = time;
   total_ = total;
   velocity_ = rms_velocity;
   record_ = record;
@@ -42,17 +41,17 @@ void Progress::finish() {
 }
 
 std::string Progress::line(double now) const {
-  const double elapsed = now - first_clock_,
-               fraction = total_ > 0.0 ? std::clamp(time_ / total_, 0.0, 1.0) : 0.0;
+  const double elapsed = now - first_clock_, time = record_.time,
+               fraction = total_ > 0.0 ? std::clamp(time / total_, 0.0, 1.0) : 0.0;
   std::string text = label_ + " ";
   if (line_.style() == Style::bar) text += bar_text(fraction);
   if (std::isnan(total_))
-    text += printed("  ? %%  %.4g s", time_);
+    text += printed("  ? %%  %.4g s", time);
   else
-    text += printed("%3.0f %%  %.4g/%.4g s", std::floor(100.0 * fraction), time_, total_);
+    text += printed("%3.0f %%  %.4g/%.4g s", std::floor(100.0 * fraction), time, total_);
   // the mean pace so far says how long the rest will take
-  if (time_ > first_time_ && time_ < total_)
-    text += "  " + duration_text(elapsed * (total_ - time_) / (time_ - first_time_)) + " left";
+  if (time > first_time_ && time < total_)
+    text += "  " + duration_text(elapsed * (total_ - time) / (time - first_time_)) + " left";
   if (steps_ > 0) text += printed("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));
   text += printed("  error %.1e m/s", record_.error_rms);
   text += printed("  %.0f contacts", record_.contacts);

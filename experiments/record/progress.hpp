@@ -22,11 +22,11 @@ class Progress {
   /// `clock`: seconds from anywhere, increasing.
   Progress(Style style, std::ostream& out, std::function<double()> clock);
 
-  /// After each step: `time` of `total` [s], NaN where that is not known, in the phase `label`.
+  /// After each step of the phase `label`, which lasts `total` [s], NaN where that is not known.
   /// Steps are counted by the calls; rate and time left are those since the first call of the
   /// phase. `rms_velocity` [m/s] is shown unless it is NaN. Costs a clock reading unless it is time
   /// to write.
-  void show(std::string_view label, double time, double total, const StepRecord& record,
+  void show(std::string_view label, double total, const StepRecord& record,
             double rms_velocity = std::numeric_limits<double>::quiet_NaN());
 
   /// Ends the line, if one is being rewritten, with what was shown last. To be called before
@@ -45,7 +45,7 @@ class Progress {
   bool stale_ = false;         // shown later than written
   // what was shown last
   std::string label_;
-  double time_ = 0.0, total_ = 0.0, velocity_ = 0.0;
+  double total_ = 0.0, velocity_ = 0.0;
   StepRecord record_;
 };
 

@@ -62,13 +62,7 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
   captured.g = g_;
   captured.step = static_cast<int>(state.step);
   captured.time = state.time;
-  // As wall_cycles has it, but from what is known at the step: at rest is what is slow beside the
-  // fastest so far.
-  const bool is_slow = std::abs(record.wall_v) <= jammed_speed * fastest_wall_;
-  captured.phase = fastest_wall_ == 0.0  ? "none"
-                   : is_slow             ? "jammed"
-                   : record.wall_v > 0.0 ? "active"
-                                         : "passive";
+  captured.phase = fastest_wall_ == 0.0 ? "none" : wall_state(record.wall_v, fastest_wall_);
   captured.wall_x = record.wall_x;
   captured.wall_v = record.wall_v;
   captured.load = record.load;

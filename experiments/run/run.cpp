@@ -220,7 +220,7 @@ class Run {
       recorder.add_step(record);
       if (is_due(pose_every)) store_frame();
       if (is_due(state_every)) save(folder_.state_at(run_.state.step));
-      progress.show(scene_.name, run_.state.time, scene_.duration, record);
+      progress.show(scene_.name, scene_.duration, record);
       if (run_.state.step < scene_.step_count()) end = why_to_stop();
       if (since_saved.seconds() > spec.checkpoint_seconds) {
         recorder.flush();

@@ -46,7 +46,6 @@ double OverlapCorrection::stiffness_of(const FrictionProblem& problem, int c) co
   return compliance > 0.0 ? 1.0 / compliance : 0.0;
 }
 
-/// min 1/2 d.M d subject to next_gap + H_N d >= wanted at every point, d the bodies' displacements.
 double OverlapCorrection::apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
                                 std::span<const ContactPoint> contacts, const Eigen::VectorXd& v,
                                 double h, MotionState& state) {

@@ -128,10 +128,9 @@ void require_finite(const SolverRun& run, const std::string& solver, double time
 
 void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   assembler_.to_rows(carried_, contacts_, impulses_);
-  Budget budget;
-  budget.tolerance = spec_.tolerance * velocity_scale_;
-  budget.max_iterations = spec_.max_iterations;
-  budget.max_seconds = spec_.max_seconds;
+  const Budget budget{.tolerance = spec_.tolerance * velocity_scale_,
+                      .max_iterations = spec_.max_iterations,
+                      .max_seconds = spec_.max_seconds};
   // validates, solves and judges; the judge's error is what the record says
   SolverRun run = impact_law_.solve(runner_, *solver_, problem_, assembler_.rebound(),
                                     assembler_.restitution(), std::move(impulses_), budget);
@@ -235,7 +234,6 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
       state.pose[b] = imposed->motion.pose_at(mid_time, imposed->start);
     else
       state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
-  // contacts are found at the mid-point, half a step of free flight away
   record.seconds_other = clock.restart();
   detect_pace_.begin(team_.get());
   detect(state, memory);

@@ -313,7 +313,7 @@ std::vector<Table> box_values() {
   const TemporaryFolder folder;
 
   StepTable deposit_steps("deposit", 100);
-  const auto listen = [&](BoxStage stage, double, double, const StepRecord& step) {
+  const auto listen = [&](BoxStage stage, double, const StepRecord& step) {
     deposit_steps.add(name_of(stage), step);
     return true;
   };

@@ -13,7 +13,7 @@ namespace {
 /// Deposits without a stop; what it says goes into `stages`.
 Packing deposited(const Scene& scene, const fs::path& part, std::vector<BoxStage>& stages) {
   Packing packing;
-  const auto listen = [&](BoxStage stage, double, double, const StepRecord&) {
+  const auto listen = [&](BoxStage stage, double, const StepRecord&) {
     if (stages.empty() || stages.back() != stage) stages.push_back(stage);
     return true;
   };
@@ -61,9 +61,7 @@ TEST_CASE("a deposit stopped in every stage goes on to the same bits") {
   std::vector<std::string> phases;
   for (int calls = 0, stops = 0;; calls = 0) {
     REQUIRE(++stops < 5000);
-    const auto stop = [&](BoxStage, double, double, const StepRecord&) {
-      return ++calls < steps_each;
-    };
+    const auto stop = [&](BoxStage, double, const StepRecord&) { return ++calls < steps_each; };
     if (deposit(scene, make_rain(scene), part, stop, packing)) break;
     phases.push_back(read_checkpoint(part).phase);
   }
@@ -75,7 +73,7 @@ TEST_CASE("a deposit stopped in every stage goes on to the same bits") {
 TEST_CASE("a part of another deposit is not gone on with") {
   const TemporaryFolder folder;
   const fs::path part = folder.path() / "part";
-  const auto stop = [](BoxStage, double, double, const StepRecord&) { return false; };
+  const auto stop = [](BoxStage, double, const StepRecord&) { return false; };
   Packing packing;
   const Scene other = small_box({"grains.seed=5"}), scene = small_box();
   REQUIRE_FALSE(deposit(other, make_rain(other), part, stop, packing));
@@ -88,7 +86,7 @@ TEST_CASE("a part of another deposit is not gone on with") {
 TEST_CASE("grains that do not come to rest in time are an error that says what to raise") {
   const TemporaryFolder folder;
   const Scene scene = small_box({"deposit.max_time=0.01"});
-  const auto go_on = [](BoxStage, double, double, const StepRecord&) { return true; };
+  const auto go_on = [](BoxStage, double, const StepRecord&) { return true; };
   Packing packing;
   CHECK_THAT(
       run_error([&] { deposit(scene, make_rain(scene), folder.path() / "part", go_on, packing); }),

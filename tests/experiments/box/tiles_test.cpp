@@ -80,7 +80,7 @@ TEST_CASE("a tiled box is deposited: its tile, then what is loose between the co
   const Packing tile = taken(one, folder.path());
   const fs::path part = folder.path() / "part";
   const auto deposit_steps = [&](int steps, Packing& made) {
-    const auto stop = [&](BoxStage, double, double, const StepRecord&) { return --steps > 0; };
+    const auto stop = [&](BoxStage, double, const StepRecord&) { return --steps > 0; };
     return deposit(scene, make_rain(scene), part, stop, made, &tile);
   };
   Packing made;

@@ -49,7 +49,6 @@ TEST_CASE("Eq. 2 with a constant force of the packing has the motion that can be
   }
   CHECK(compared > 1000);
   CHECK(worst < 1e-3);
-  CHECK(motion.jams);
   CHECK(motion.x.back() == 0.0);
   CHECK(motion.force.back() == Approx(model.load.at(motion.time.back())));
 }
@@ -59,14 +58,12 @@ TEST_CASE("a wall under a load that never falls below the packing's force stays 
       integrate(model_of({10.0, 50.0}, 30.0, -1e4, 5.0, {20.0, 100.0, 10.0}), 2000);
   CHECK(motion.rise == 0.0);
   CHECK(motion.speed_in == 0.0);
-  CHECK_FALSE(motion.jams);
 }
 
 TEST_CASE("the model comes back further in when the packing contracts") {
   WallModel model = model_of({100.0, 20.0}, 300.0, -1e4, 50.0, {0.0, 1000.0, 5.0});
   model.contraction = 1e-3;
   const ModelMotion motion = integrate(model);
-  CHECK(motion.jams);
   CHECK(motion.x.back() == Approx(-1e-3));
   CHECK(motion.rise > 0.0);
 }

@@ -20,7 +20,8 @@ std::string told(Progress::Style style, int steps, double seconds_per_step) {
     record.error_rms = 1.96e-6;
     for (int step = 1; step <= steps; ++step) {
       now += seconds_per_step;
-      progress.show("drive", 1e-3 * step, 1.0, record);
+      record.time = 1e-3 * step;
+      progress.show("drive", 1.0, record);
     }
     progress.finish();
   }
@@ -69,14 +70,16 @@ TEST_CASE("phases, resumed runs and silence") {
     CHECK(out.str().empty());
     StepRecord record;
     for (int step = 1; step <= 30; ++step) {
-      progress.show("rain", 0.01 * step, 3.0, record, 0.5);
+      record.time = 0.01 * step;
+      progress.show("rain", 3.0, record, 0.5);
       now += 1.0;
     }
     progress.finish();
     out.str("");
     // a phase that is entered in its middle: the rate counts from there
     for (int step = 1; step <= 12; ++step) {
-      progress.show("drive", 0.5 + 0.01 * step, 1.0, record);
+      record.time = 0.5 + 0.01 * step;
+      progress.show("drive", 1.0, record);
       now += 1.0;
     }
   }
@@ -88,8 +91,10 @@ TEST_CASE("where the end is not known, neither part nor time left is made up") {
   std::ostringstream out;
   Progress progress(Progress::Style::lines, out, [] { return 0.0; });
   StepRecord record;
-  for (int step = 1; step < 10; ++step)
-    progress.show("rain", 1e-3 * step, std::nan(""), record, 0.5);
+  for (int step = 1; step < 10; ++step) {
+    record.time = 1e-3 * step;
+    progress.show("rain", std::nan(""), record, 0.5);
+  }
   progress.finish();
   CHECK_THAT(out.str(), Contains("rain   ? %  0.009 s") && !Contains("left") && !Contains("nan"));
 }
