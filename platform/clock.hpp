@@ -1,5 +1,8 @@
 #pragma once
-// Wall clock: time that passes for the user, in seconds, never set back. And the processor's time.
+// Wall clock: time that passes for the user, in seconds, never set back. And what this process has
+// used: the processor's time, memory.
+
+#include <sys/resource.h>
 
 #include <chrono>
 #include <ctime>
@@ -44,6 +47,14 @@ inline double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The most memory that this process has held so far [MB]; RUSAGE_CHILDREN: the largest process
+/// that it waited for.
+inline double peak_memory_MB(int who = RUSAGE_SELF) {
+  rusage usage{};
+  getrusage(who, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 }  // namespace ballast

@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiments/bench/measurement.hpp"
@@ -20,6 +21,7 @@
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
+#include "platform/error.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
@@ -173,8 +175,11 @@ void run_beside(const std::string& command, const fs::path& folder) {
 std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path& folder) {
   std::map<std::string, double> numbers;
   if (stage.words.empty()) {
-    numbers["step"] =
-        parsed<double>(words_of(read_whole_file(folder / other_program)).at(0)).value();
+    const fs::path file = folder / other_program;
+    const std::vector<std::string> words = words_of(read_whole_file(file));
+    const auto number = words.empty() ? std::nullopt : parsed<double>(words[0]);
+    if (!number) throw Error(file.string() + ": expected a number of milliseconds");
+    numbers["step"] = *number;
   } else if (stage.words[0] == "bench") {
     for (const Measurement& m :
          read_bench_result(folder / (stage.words.at(1) + ".json")).measurements)
@@ -204,8 +209,9 @@ bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
     words.insert(words.end(), {"--output", folder.string()});
     const fs::path log = fs::path(stage.name) / printed("%d.log", turn);
     const auto child = start_program(own_program(), words, log);
+    bool is_told = false;  // once: a second signal would end it before its checkpoint
     while (!child->ends_within(0.2))
-      if (InterruptGuard::requested()) child->send(SIGTERM);
+      if (InterruptGuard::requested() && !std::exchange(is_told, true)) child->send(SIGTERM);
     if (InterruptGuard::requested()) return false;
     if (child->status() != 0)
       throw Error("bench all: " + stage.name + " failed: " + last_line(log) + " (" + log.string() +

@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include <sys/resource.h>
-
 #include "experiments/box/tiles.hpp"
 #include "experiments/compare/live_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
@@ -135,12 +133,6 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
   column("penetration max", "um", &StepRecord::penetration_max, 1e6);
 }
 
-double peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
 /// Wall clock of a sweep [s].
 double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int sweeps,
                      int threads) {
@@ -166,7 +158,7 @@ void measure_packing(const DepositedBox& box, const ScalingOptions& options, Sca
     const std::string group = thread_words(point.threads) + printed(", %.0f grains", point.grains);
     point.measured.push_back(measurement_of(group, name, unit, {quantile(values, 0.5)}));
   };
-  const double before = peak_bytes(), ns = 1e9 / point.grains;
+  const double before = peak_memory_MB(), ns = 1e9 / point.grains;
   PreparedRun start = tiled_start(box, point.nx, point.ny);
   Scene scene = box.scene;
   scene.solver.threads = point.threads;
@@ -185,7 +177,7 @@ void measure_packing(const DepositedBox& box, const ScalingOptions& options, Sca
   add("assemble", "ns/grain", record_column(steps, &StepRecord::seconds_assemble, ns));
   add("solve", "ns/grain", record_column(steps, &StepRecord::seconds_solve, ns));
   add("step", "ns/grain", whole);
-  add("memory", "B/grain", {(peak_bytes() - before) / point.grains});
+  add("memory", "B/grain", {1048576.0 * (peak_memory_MB() - before) / point.grains});
   Impulses warm;
   stepper.warm_start(warm);
   const double sweep = sweep_seconds(stepper.problem(), warm, options.sweeps, point.threads);

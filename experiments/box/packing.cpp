@@ -215,6 +215,7 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   });
   if (!lock.is_held()) return false;
   if (find()) return true;  // made by whoever held the lock
+  const Stopwatch watch;
   Packing tile;
   const bool is_tiled = scene.deposit.tiles() > 1;
   if (is_tiled) {
@@ -223,7 +224,6 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   }
   say("depositing " + std::to_string(rain.grains.size()) + " grains (kept in " + file.string() +
       ")");
-  const Stopwatch watch;
   Progress progress(order.style);
   // when the rain will rest nobody knows
   const double end[] = {std::numeric_limits<double>::quiet_NaN(), scene.deposit.lid_time,

@@ -138,8 +138,9 @@ std::string again(const RunData& data, const CompareRow& row) {
       "ballast compare {case} --solvers {solver} --tolerances {tolerance} --starts {start} "
       "--measure " +
       std::string(name_of(row.measure)) + printed(" --max-seconds %g", row.max_seconds);
-  if (data.manifest().contains("/summary/memory_MB"_json_pointer))
-    command += printed(" --memory %g", data.manifest()["summary"]["memory_MB"].get<double>());
+  const auto memory = "/summary/memory_MB"_json_pointer;
+  if (data.manifest().contains(memory) && data.manifest()[memory].is_number())
+    command += printed(" --memory %g", data.manifest()[memory].get<double>());
   return command + " --output results/again";
 }
 

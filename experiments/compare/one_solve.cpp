@@ -21,17 +21,6 @@ struct Account {
   Solved solved;  ///< reason and impulses; row.reason is the name of the first, or empty
 };
 
-/// Of this process or of the largest one that it waited for [MB].
-double peak_memory() {
-  double peak = 0.0;
-  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-    rusage usage{};
-    getrusage(who, &usage);
-    peak = std::max(peak, static_cast<double>(usage.ru_maxrss) / 1024.0);
-  }
-  return peak;
-}
-
 SolverRun drive(Solver& solver, const LoadedCase& loaded, const SolveLimits& limits,
                 const CompareRow& row) {
   Budget budget{.tolerance = row.tolerance * loaded.facts.velocity_scale,
@@ -157,7 +146,7 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
     const rlimit limit{bytes, bytes};
     if (bytes > 0) setrlimit(RLIMIT_AS, &limit);
     Account account = solve_here(solver.make, loaded, limits, row);
-    account.row.peak_memory_MB = peak_memory();
+    account.row.peak_memory_MB = std::max(peak_memory_MB(), peak_memory_MB(RUSAGE_CHILDREN));
     Packer packer;
     packer.text(to_json(account.row));
     packer.number(account.solved.reason);

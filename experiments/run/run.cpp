@@ -4,8 +4,6 @@
 #include <cmath>
 #include <iostream>
 
-#include <sys/resource.h>
-
 #include "experiments/record/recorder.hpp"
 #include "platform/clock.hpp"
 #include "platform/interrupt.hpp"
@@ -169,9 +167,7 @@ class Run {
     const ExitCode end = step_on(recorder);
     if (const long done = run_.state.step - first; done > 0)
       manifest_.summary("ms_per_step", 1e3 * watch.seconds() / static_cast<double>(done));
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    manifest_.summary("peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024.0);
+    manifest_.summary("peak_memory_MB", peak_memory_MB());
     manifest_.summary(steps_left_entry, static_cast<double>(scene_.step_count() - run_.state.step));
     recorder.finish(resolved_.text, manifest_.text());
     // of all steps, also those before the run was last resumed
