@@ -49,10 +49,7 @@ class Auto final : public Solver {
 
     Course course(budget, std::move(start));
     SlowSweeps slow(step, 0.25 * budget.max_iterations, budget);
-    course.run([&](Impulses first, Budget whole) {
-      whole.gives_up = std::ref(slow);
-      return prepared(sweeps_, problem).solve(problem, std::move(first), whole);
-    });
+    course.run(prepared(sweeps_, problem), problem, budget.max_iterations, std::ref(slow));
     int idle = 0;
     for (double steps = first_steps; !course.over() && idle < 2; steps *= 2.0) {
       const double before = course.error();

@@ -130,10 +130,7 @@ class NewtonBurst final : public Solver {
     Course course(budget, std::move(start));
     if (begins_with_sweeps_) {
       SlowSweeps slow(sweeps_of_step(problem.contact_count()), budget.max_iterations, budget);
-      course.run([&](Impulses first, Budget whole) {
-        whole.gives_up = std::ref(slow);
-        return sweeps_->solve(problem, std::move(first), whole);
-      });
+      course.run(*sweeps_, problem, budget.max_iterations, std::ref(slow));
     } else {  // the start itself, without impulses that move nothing
       NewtonIterate at{course.best(), {}};
       const double error = newton_.settle(at);
