@@ -64,7 +64,7 @@ class InteriorPoint final : public Solver {
     rounded_u_ = u_;
     int steps = 0, stalled_steps = 0;  // with this s; without the best error halved
     while (!course.over() && stalled_steps < patience &&
-           course.error() > near * (1.0 - Iteration::margin)) {
+           course.error() > near * (1.0 - stop_margin)) {
       course.spend(1);
       const bool stepped = step();
       if (stepped) {

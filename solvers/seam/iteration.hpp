@@ -15,16 +15,13 @@ namespace ballast {
 /// What every solve books: its budget, its clock, iterations, history. The clock starts here.
 class SolveBook {
  public:
-  /// A hair below the tolerance, because the judge sums in another order than a backend does.
-  static constexpr double margin = 1e-3;
-
   explicit SolveBook(const Budget& budget) : budget_(budget) {}
 
   int count() const { return count_; }  ///< of iterations
   double seconds() const { return watch_.seconds() - startup_; }
   bool is_late() const { return watch_.has_passed(budget_.max_seconds + startup_); }
   /// Small enough to stop [m/s].
-  bool reached(double error) const { return error <= budget_.tolerance * (1.0 - margin); }
+  bool reached(double error) const { return error <= budget_.tolerance * (1.0 - stop_margin); }
   /// So much of the time that has passed was start-up (Solved::startup_seconds): no limit and no
   /// history counts it.
   void add_startup(double seconds) { startup_ += seconds; }

@@ -27,7 +27,7 @@ bool FclibStop::reached(const Impulses& r, double natural_map) {
   looked_at_ = natural_map;
   const double value = judge_.fclib(*problem_, r, free_norm_);
   aim_ = value > 0.0 ? natural_map * tolerance_ / value : natural_map;
-  return value <= tolerance_ * (1.0 - margin);
+  return value <= tolerance_ * (1.0 - stop_margin);
 }
 
 double Budget::aim() const { return fclib ? fclib->aim() : tolerance; }

@@ -44,6 +44,9 @@ const char* name_of(StopReason reason);
 const char* name_of(Verdict verdict);
 const char* name_of(ContactLaw law);
 
+/// Solvers stop a hair below a tolerance: the judge sums in another order than a backend does.
+inline constexpr double stop_margin = 1e-3;
+
 /// Siconos' measure of an answer (ContactError::fclib, by the judge) as a reason to stop, for
 /// whoever evaluates errors. How it stands to the natural map changes while impulses grow, so no
 /// tolerance on the one can stand for a tolerance on the other.
@@ -54,7 +57,7 @@ class FclibStop {
       : problem_(&problem), tolerance_(tolerance) {}
 
   double tolerance() const { return tolerance_; }
-  /// The measure is below its tolerance. `natural_map` of the same impulses [m/s] says whether a
+  /// The measure is small enough to stop. `natural_map` of the same impulses [m/s] says whether a
   /// look is worth its cost: not while it is neither half of what it was at the last look nor near
   /// the aim. The first looks are always taken. Throws InvalidProblem for a mass block that is not
   /// positive definite.
@@ -62,9 +65,6 @@ class FclibStop {
   /// Where the natural map should stand when the measure is reached [m/s], from the last look;
   /// infinite before the first.
   double aim() const { return aim_; }
-
-  /// reached() asks for a hair less than the tolerance: another judge may sum in another order.
-  static constexpr double margin = 1e-3;
 
  private:
   static constexpr int first_looks = 4;
