@@ -126,7 +126,6 @@ class NewtonBurst final : public Solver {
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    problem_ = &problem;
     Course course(budget, std::move(start));
     if (begins_with_sweeps_) {
       SlowSweeps slow(sweeps_of_step(problem.contact_count()), budget.max_iterations, budget);
@@ -144,7 +143,6 @@ class NewtonBurst final : public Solver {
     at.r = course.best();
     double error = newton_.settle(at);
     descend(course, at, error, end);
-    if (course.over()) return course.finish();
     endgame(course, at, error);
     if (course.over()) return course.finish();
     walk_->prepare(problem);
@@ -227,7 +225,7 @@ class NewtonBurst final : public Solver {
   /// Where steps gain little, as in jams, they drift: each goes on in the last one's direction, as
   /// far as the compliance lets it. Sweeps then go further in less time. Ends where steps fail one
   /// after the other, or gain little for long.
-  void endgame(Course& course, NewtonIterate& at, double& error) {
+  void endgame(Course& course, NewtonIterate& at, double error) {
     constexpr int most_failures = 4, most_slow_steps = 15;
     double epsilon = first_epsilon, halved = error;
     int failures = 0, slow = 0;
