@@ -120,6 +120,9 @@ struct Solved {
   /// problems converted to its form, its answers judged.
   double startup_seconds = 0.0;
   std::vector<HistoryPoint> history;
+
+  /// Books both as one: `next` began where this one ended, so many seconds after its beginning.
+  void go_on(Solved next, double seconds);
 };
 
 /// A problem that a backend cannot take; what() names the backend and the reason.
