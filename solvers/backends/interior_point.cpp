@@ -31,21 +31,19 @@ class InteriorPoint final : public Solver {
     free_contact_velocity(problem, q_);
     for (Eigen::VectorXd* x : {&u_, &point_.r, &point_.g, &rounded_u_, &right_, &dr_, &dg_})
       x->resize(problem.row_count());
-    is_polisher_ready_ = false;  // its order and analysis are dear, and most solves do without
+    polisher_.is_prepared = false;
   }
 
   void use_team(WorkerTeam* team) override {
     system_.use_team(team);
-    polisher_->use_team(team);
+    polisher_.solver->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Course course(budget, std::move(start));
     approach(course, std::max(budget.tolerance, polish_from * velocity_scale()));
     if (course.over()) return course.finish();
-    if (!is_polisher_ready_) polisher_->prepare(problem);
-    is_polisher_ready_ = true;
-    course.run(*polisher_, problem, budget.max_iterations);
+    course.run(polisher_.prepared(problem), problem, budget.max_iterations);
     return course.finish();
   }
 
@@ -295,8 +293,7 @@ class InteriorPoint final : public Solver {
   std::vector<Vector> target_;  ///< c in step()
   Eigen::VectorXd q_, u_, rounded_u_, right_, dr_, dg_;
   /// Begins at once: sweeps would undo what the interior point has balanced.
-  std::unique_ptr<Solver> polisher_ = make_proximal_newton({.start_sweeps = 0});
-  bool is_polisher_ready_ = false;
+  LateSolver polisher_{make_proximal_newton({.start_sweeps = 0})};
 };
 
 }  // namespace

@@ -114,7 +114,7 @@ class NewtonBurst final : public Solver {
           "newton_burst: the problem has no dynamics form (M, H): it solves in the bodies' "
           "unknowns");
     sweeps_->prepare(problem);
-    is_ready_ = false;
+    is_ready_ = walk_.is_prepared = false;
     problem_ = &problem;
     if (!begins_with_sweeps_) make_ready();
   }
@@ -122,7 +122,7 @@ class NewtonBurst final : public Solver {
   void use_team(WorkerTeam* team) override {
     sweeps_->use_team(team);
     newton_.use_team(team);
-    walk_->use_team(team);
+    walk_.solver->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
@@ -145,8 +145,7 @@ class NewtonBurst final : public Solver {
     descend(course, at, error, end);
     endgame(course, at, error);
     if (course.over()) return course.finish();
-    walk_->prepare(problem);
-    course.run(*walk_, problem, most_walk_steps);
+    course.run(walk_.prepared(problem), problem, most_walk_steps);
     return course.finish();
   }
 
@@ -317,8 +316,8 @@ class NewtonBurst final : public Solver {
   std::unique_ptr<Solver> sweeps_ = make_nesterov_pgs(/*returns_best=*/false);
   RegularNewton newton_;
   /// Proximal-point steps that may pass through worse places, which come out of jams.
-  std::unique_ptr<Solver> walk_ = make_proximal_newton(
-      {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}});
+  LateSolver walk_{make_proximal_newton(
+      {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}})};
   bool is_ready_ = false;  ///< newton_ is prepared for problem_
   const FrictionProblem* problem_ = nullptr;
   NewtonIterate change_, trial_, best_trial_;

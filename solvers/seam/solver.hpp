@@ -156,6 +156,18 @@ class Solver {
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;
 };
 
+/// A solver that another one may do without: prepared when its turn comes, as ordering is dear.
+struct LateSolver {
+  std::unique_ptr<Solver> solver;
+  bool is_prepared = false;
+
+  Solver& prepared(const FrictionProblem& problem) {
+    if (!is_prepared) solver->prepare(problem);
+    is_prepared = true;
+    return *solver;
+  }
+};
+
 /// Makes one backend, with the settings that its row in the list stands for.
 using SolverMaker = std::unique_ptr<Solver> (*)();
 
