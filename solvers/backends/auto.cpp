@@ -22,13 +22,12 @@ double stored_step(const FrictionProblem& problem) {
 
 class Auto final : public Solver {
  public:
-  /// Every way when its turn comes: a problem may need none, and ordering is dear.
   void prepare(const FrictionProblem&) override {
-    for (Way* way : {&sweeps_, &burst_, &proximal_, &interior_}) way->is_prepared = false;
+    for (LateSolver* way : {&sweeps_, &burst_, &proximal_, &interior_}) way->is_prepared = false;
   }
 
   void use_team(WorkerTeam* team) override {
-    for (Way* way : {&sweeps_, &burst_, &proximal_, &interior_}) way->solver->use_team(team);
+    for (LateSolver* way : {&sweeps_, &burst_, &proximal_, &interior_}) way->solver->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
@@ -45,14 +44,11 @@ class Auto final : public Solver {
                         : problem.has_dynamics
                             ? std::max(first_step, sweeps_of_step(problem.contact_count()))
                             : stored_step(problem);
-    Way& newton = problem.has_dynamics && !is_scarce ? burst_ : proximal_;
+    LateSolver& newton = problem.has_dynamics && !is_scarce ? burst_ : proximal_;
 
     Course course(budget, std::move(start));
     SlowSweeps slow(step, 0.25 * budget.max_iterations, budget);
-    course.run([&](Impulses first, Budget whole) {
-      whole.gives_up = std::ref(slow);
-      return prepared(sweeps_, problem).solve(problem, std::move(first), whole);
-    });
+    course.run(sweeps_.prepared(problem), problem, budget.max_iterations, std::ref(slow));
     int idle = 0;
     for (double steps = first_steps; !course.over() && idle < 2; steps *= 2.0) {
       const double before = course.error();
@@ -65,11 +61,6 @@ class Auto final : public Solver {
   }
 
  private:
-  struct Way {
-    std::unique_ptr<Solver> solver;
-    bool is_prepared = false;
-  };
-
   /// No contact closes without impulses, which are then a solution.
   static bool nothing_presses(const FrictionProblem& problem) {
     Eigen::VectorXd made;
@@ -80,15 +71,10 @@ class Auto final : public Solver {
     return true;
   }
 
-  static Solver& prepared(Way& way, const FrictionProblem& problem) {
-    if (!way.is_prepared) way.solver->prepare(problem);
-    way.is_prepared = true;
-    return *way.solver;
-  }
-
-  static void run(Way& way, Course& course, const FrictionProblem& problem, double iterations) {
+  static void run(LateSolver& way, Course& course, const FrictionProblem& problem,
+                  double iterations) {
     if (course.over()) return;
-    course.run(prepared(way, problem), problem, static_cast<int>(std::min(iterations, 1e9)));
+    course.run(way.prepared(problem), problem, static_cast<int>(std::min(iterations, 1e9)));
   }
 
   static constexpr double first_steps = 40.0;  ///< of Newton's first turn
@@ -97,10 +83,10 @@ class Auto final : public Solver {
   /// Of so few a sweep is as dear as a factorisation.
   static constexpr int few_iterations = 1000;
 
-  Way sweeps_{make_nesterov_pgs(/*returns_best=*/false)};
-  Way burst_{make_newton_burst(/*begins_with_sweeps=*/false)};
-  Way proximal_{make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4})};
-  Way interior_{make_interior_point()};
+  LateSolver sweeps_{make_nesterov_pgs(/*returns_best=*/false)};
+  LateSolver burst_{make_newton_burst(/*begins_with_sweeps=*/false)};
+  LateSolver proximal_{make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4})};
+  LateSolver interior_{make_interior_point()};
 };
 
 }  // namespace

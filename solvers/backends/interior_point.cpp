@@ -31,21 +31,19 @@ class InteriorPoint final : public Solver {
     free_contact_velocity(problem, q_);
     for (Eigen::VectorXd* x : {&u_, &point_.r, &point_.g, &rounded_u_, &right_, &dr_, &dg_})
       x->resize(problem.row_count());
-    is_polisher_ready_ = false;  // its order and analysis are dear, and most solves do without
+    polisher_.is_prepared = false;
   }
 
   void use_team(WorkerTeam* team) override {
     system_.use_team(team);
-    polisher_->use_team(team);
+    polisher_.solver->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Course course(budget, std::move(start));
     approach(course, std::max(budget.tolerance, polish_from * velocity_scale()));
     if (course.over()) return course.finish();
-    if (!is_polisher_ready_) polisher_->prepare(problem);
-    is_polisher_ready_ = true;
-    course.run(*polisher_, problem, budget.max_iterations);
+    course.run(polisher_.prepared(problem), problem, budget.max_iterations);
     return course.finish();
   }
 
@@ -64,7 +62,7 @@ class InteriorPoint final : public Solver {
     rounded_u_ = u_;
     int steps = 0, stalled_steps = 0;  // with this s; without the best error halved
     while (!course.over() && stalled_steps < patience &&
-           course.error() > near * (1.0 - Iteration::margin)) {
+           course.error() > near * (1.0 - stop_margin)) {
       course.spend(1);
       const bool stepped = step();
       if (stepped) {
@@ -134,7 +132,8 @@ class InteriorPoint final : public Solver {
     // A new s begins at the last iterate whose barrier was not yet below what s had still to move:
     // nearer to the cones' sides it could not follow. Both sides are energies: the sum of x.z, and
     // what s has to move times the sum of mu r_N.
-    if (!(product() < shift_.distance(w_, u_) * head_impulses())) before_ = point_;
+    const double heads = sum([this](int c) { return to_cone(point_.r, c)[0]; });
+    if (!(product() < shift_.distance(w_, u_) * heads)) before_ = point_;
     return advance();
   }
 
@@ -146,32 +145,24 @@ class InteriorPoint final : public Solver {
     return system_.factor();
   }
 
-  /// sum of x.z over the contacts that move [J]: x.z = (F x).(F^-1 z) = |lambda|^2.
+  /// Over the contacts that move.
+  template <typename Summand>
+  double sum(const Summand& summand) const {
+    double total = 0.0;
+    for (int c = 0; c < w_.contact_count(); ++c)
+      if (moves(c)) total += summand(c);
+    return total;
+  }
+
+  /// sum of x.z [J]: x.z = (F x).(F^-1 z) = |lambda|^2.
   double product() const {
-    double sum = 0.0;
-    for (int c = 0; c < w_.contact_count(); ++c)
-      if (moves(c)) sum += scaling_[c].lambda.squaredNorm();
-    return sum;
-  }
-
-  /// sum of x_0 over the contacts that move [N s].
-  double head_impulses() const {
-    double sum = 0.0;
-    for (int c = 0; c < w_.contact_count(); ++c)
-      if (moves(c)) sum += to_cone(point_.r, c)[0];
-    return sum;
-  }
-
-  /// Contacts that move.
-  int cones() const {
-    return static_cast<int>(
-        std::count_if(w_.rho().begin(), w_.rho().end(), [](double rho) { return rho > 0.0; }));
+    return sum([this](int c) { return scaling_[c].lambda.squaredNorm(); });
   }
 
   /// Moves the point by predictor and corrector. False: the new one is not finite.
   bool advance() {
-    const int moving = cones();
-    const double nu = moving > 0 ? product() / moving : 0.0;
+    const double moving = sum([](int) { return 1.0; });
+    const double nu = moving > 0.0 ? product() / moving : 0.0;
     // Predictor: straight to the solution, and how far along it the cones allow.
     for (int c = 0; c < w_.contact_count(); ++c)
       target_[c] = -lorentz::product(scaling_[c].lambda, scaling_[c].lambda);
@@ -198,19 +189,16 @@ class InteriorPoint final : public Solver {
   bool moves(int c) const { return w_.rho()[c] > 0.0; }
   bool half_line(int c) const { return !(w_.friction(c) > 0.0); }
 
-  /// x = (mu r_N, r_T): in Lorentz's cone exactly where |r_T| <= mu r_N.
-  Vector to_cone(const Eigen::VectorXd& r, int c) const {
-    const Vector x = w_.at(r, c);
+  /// S x: of an impulse a point of the cone's x, of the cone's z a velocity.
+  Vector times_s(const Vector& x, int c) const {
     return half_line(c) ? Vector(x[0], 0.0, 0.0) : Vector(w_.friction(c) * x[0], x[1], x[2]);
   }
+  /// x = (mu r_N, r_T): in Lorentz's cone exactly where |r_T| <= mu r_N.
+  Vector to_cone(const Eigen::VectorXd& r, int c) const { return times_s(w_.at(r, c), c); }
   /// z = (g_N / mu, g_T): in the same cone exactly where mu |g_T| <= g_N, and x.z = r.g.
   Vector to_dual(const Eigen::VectorXd& g, int c) const {
     const Vector z = w_.at(g, c);
     return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(z[0] / w_.friction(c), z[1], z[2]);
-  }
-  /// S z: from the cone's rows to a velocity; its inverse maps to an impulse.
-  Vector from_dual(const Vector& z, int c) const {
-    return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(w_.friction(c) * z[0], z[1], z[2]);
   }
 
   /// The blocks P and P^-1 of one contact.
@@ -253,7 +241,7 @@ class InteriorPoint final : public Solver {
       Vector b = Vector::Zero();
       if (moves(c)) {
         const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
-        b = w_.at(point_.g, c) - shift_.shifted(w_, u_, c) + from_dual(scaling_[c].f * pull, c);
+        b = w_.at(point_.g, c) - shift_.shifted(w_, u_, c) + times_s(scaling_[c].f * pull, c);
         if (half_line(c)) b[1] = b[2] = 0.0;
       }
       w_.put(right_, c, b);
@@ -268,7 +256,7 @@ class InteriorPoint final : public Solver {
       w_.put(dr_, c, dr);
       const Vector pull = lorentz::divide(scaling_[c].lambda, target_[c]);
       const Vector dz = scaling_[c].f * (pull - scaling_[c].f * to_cone(dr_, c));
-      w_.put(dg_, c, moves(c) ? from_dual(dz, c) : Vector::Zero());
+      w_.put(dg_, c, moves(c) ? times_s(dz, c) : Vector::Zero());
     }
   }
 
@@ -305,8 +293,7 @@ class InteriorPoint final : public Solver {
   std::vector<Vector> target_;  ///< c in step()
   Eigen::VectorXd q_, u_, rounded_u_, right_, dr_, dg_;
   /// Begins at once: sweeps would undo what the interior point has balanced.
-  std::unique_ptr<Solver> polisher_ = make_proximal_newton({.start_sweeps = 0});
-  bool is_polisher_ready_ = false;
+  LateSolver polisher_{make_proximal_newton({.start_sweeps = 0})};
 };
 
 }  // namespace

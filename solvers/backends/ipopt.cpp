@@ -192,11 +192,8 @@ class ConeNlp final : public Ipopt::TNLP {
   }
   /// Ipopt asks twice: first for the pattern (no values), then for values.
   static bool give(const Entries& entries, Index* rows, Index* columns, Number* values) {
-    if (values) {
-      std::copy(entries.value.begin(), entries.value.end(), values);
-      return std::all_of(values, values + entries.value.size(),
-                         [](double x) { return std::isfinite(x); });
-    }
+    const Index count = static_cast<Index>(entries.value.size());
+    if (values) return give(take(entries.value.data(), count), values);
     std::copy(entries.row.begin(), entries.row.end(), rows);
     std::copy(entries.column.begin(), entries.column.end(), columns);
     return true;

@@ -114,7 +114,7 @@ class NewtonBurst final : public Solver {
           "newton_burst: the problem has no dynamics form (M, H): it solves in the bodies' "
           "unknowns");
     sweeps_->prepare(problem);
-    is_ready_ = false;
+    is_ready_ = walk_.is_prepared = false;
     problem_ = &problem;
     if (!begins_with_sweeps_) make_ready();
   }
@@ -122,18 +122,14 @@ class NewtonBurst final : public Solver {
   void use_team(WorkerTeam* team) override {
     sweeps_->use_team(team);
     newton_.use_team(team);
-    walk_->use_team(team);
+    walk_.solver->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    problem_ = &problem;
     Course course(budget, std::move(start));
     if (begins_with_sweeps_) {
       SlowSweeps slow(sweeps_of_step(problem.contact_count()), budget.max_iterations, budget);
-      course.run([&](Impulses first, Budget whole) {
-        whole.gives_up = std::ref(slow);
-        return sweeps_->solve(problem, std::move(first), whole);
-      });
+      course.run(*sweeps_, problem, budget.max_iterations, std::ref(slow));
     } else {  // the start itself, without impulses that move nothing
       NewtonIterate at{course.best(), {}};
       const double error = newton_.settle(at);
@@ -147,11 +143,9 @@ class NewtonBurst final : public Solver {
     at.r = course.best();
     double error = newton_.settle(at);
     descend(course, at, error, end);
-    if (course.over()) return course.finish();
     endgame(course, at, error);
     if (course.over()) return course.finish();
-    walk_->prepare(problem);
-    course.run(*walk_, problem, most_walk_steps);
+    course.run(walk_.prepared(problem), problem, most_walk_steps);
     return course.finish();
   }
 
@@ -230,7 +224,7 @@ class NewtonBurst final : public Solver {
   /// Where steps gain little, as in jams, they drift: each goes on in the last one's direction, as
   /// far as the compliance lets it. Sweeps then go further in less time. Ends where steps fail one
   /// after the other, or gain little for long.
-  void endgame(Course& course, NewtonIterate& at, double& error) {
+  void endgame(Course& course, NewtonIterate& at, double error) {
     constexpr int most_failures = 4, most_slow_steps = 15;
     double epsilon = first_epsilon, halved = error;
     int failures = 0, slow = 0;
@@ -322,8 +316,8 @@ class NewtonBurst final : public Solver {
   std::unique_ptr<Solver> sweeps_ = make_nesterov_pgs(/*returns_best=*/false);
   RegularNewton newton_;
   /// Proximal-point steps that may pass through worse places, which come out of jams.
-  std::unique_ptr<Solver> walk_ = make_proximal_newton(
-      {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}});
+  LateSolver walk_{make_proximal_newton(
+      {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}})};
   bool is_ready_ = false;  ///< newton_ is prepared for problem_
   const FrictionProblem* problem_ = nullptr;
   NewtonIterate change_, trial_, best_trial_;

@@ -33,7 +33,6 @@ class Sap final : public Solver {
       mass_ = sparse_mass(problem.dynamics);
     }
     hessian_.resize(problem.contact_count());
-    for (Eigen::VectorXd* x : {&u_, &du_, &gamma_, &centre_}) x->resize(problem.row_count());
     no_shift_.reset(w_);
   }
 
@@ -41,14 +40,13 @@ class Sap final : public Solver {
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
-    w_.project(start);
-    centre_ = gamma_ = start;
+    gamma_ = std::move(start);
+    iteration.evaluated(w_.begin_at(gamma_, true_u_), gamma_);
+    centre_ = gamma_;
     if (is_stored_)
-      lambda_ = start;
+      lambda_ = gamma_;
     else
-      body_velocity(problem.dynamics, problem.row_begin, start, v_);
-    w_.velocity(gamma_, true_u_);
-    iteration.evaluated(w_.error(gamma_, true_u_), gamma_);
+      body_velocity(problem.dynamics, problem.row_begin, gamma_, v_);
     int newtons = 0;  // for the problem at hand
     bool done = false;
     while (!done && iteration.next()) {
@@ -68,7 +66,6 @@ class Sap final : public Solver {
     Solved solved = iteration.finish(std::move(gamma_));
     if (done && solved.reason != StopReason::reached_tolerance) solved.reason = StopReason::stalled;
     solved.own_residual = own_residual;
-    gamma_.resize(problem.row_count());
     return solved;
   }
 

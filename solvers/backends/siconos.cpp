@@ -171,7 +171,7 @@ class Siconos final : public Solver {
   /// Siconos' error is a norm over contacts divided by max(|q|, |r|, |u|).
   double first_tolerance(const Budget& budget) const {
     // Below the hair that reached() asks for: an answer within it would cost a whole round more.
-    if (budget.fclib) return budget.fclib->tolerance() * (1.0 - 2.0 * FclibStop::margin);
+    if (budget.fclib) return budget.fclib->tolerance() * (1.0 - 2.0 * stop_margin);
     const double contacts = std::max(1.0, static_cast<double>(blocks_.contacts()));
     const double q = blocks_.q().norm();
     // Ours is rms over contacts: times the root of their number it is a norm like Siconos'.

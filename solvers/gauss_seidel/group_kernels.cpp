@@ -27,15 +27,8 @@ const std::vector<const GroupKernels*>& all_group_kernels() {
 const GroupKernels& group_kernels() { return *all_group_kernels().front(); }
 
 double slip_root(double s2, double c1, double c2, double mu, double y, double t1, double t2) {
-  PrincipalContact contact;
-  contact.inverse_normal = contact.s1 = contact.inverse_s1 = 1.0;
-  contact.s2 = s2;
-  contact.inverse_s2 = 1.0 / s2;
-  contact.c1 = c1;
-  contact.c2 = c2;
-  contact.mu = mu;
   double x = 0.0;
-  slide(contact, y, t1, t2, x);
+  slide({.s1 = 1.0, .s2 = s2, .c1 = c1, .c2 = c2, .mu = mu}, y, t1, t2, x);
   return x;
 }
 

@@ -275,7 +275,6 @@ void ScalarSweep::prepare_record(const FrictionProblem& problem, int place, int 
   const auto scale = k.row_count == 3 ? scale_rows<3> : scale_rows<1>;
   scale(problem.dynamics, roots_, c, nowhere, k);
   std::copy_n(problem.dynamics.bias.data() + problem.row_begin[c], k.row_count, k.bias);
-  turn_[place] = {};
   lambda_max_[place] = to_principal(k, problem.friction[c], turn_[place]);
 }
 

@@ -22,7 +22,7 @@ namespace ballast {
 
 class ScalarSweep final : public ContactSweep {
  public:
-  /// Both outlive the sweep.
+  /// The plan outlives the sweep.
   explicit ScalarSweep(const SweepPlan& plan) : plan_(plan) {}
 
   /// Shares sweeps, looks and preparation; null: one thread.

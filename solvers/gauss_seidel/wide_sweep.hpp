@@ -19,7 +19,7 @@ namespace ballast {
 
 class WideSweep final : public ContactSweep {
  public:
-  /// Both outlive the sweep.
+  /// The plan outlives the sweep.
   explicit WideSweep(const SweepPlan& plan) : plan_(plan) {}
 
   /// Shares sweeps, looks and preparation; null: one thread.

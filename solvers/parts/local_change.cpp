@@ -68,20 +68,10 @@ class ChangeStopped final : public Solver {
       Budget burst = budget.after(whole.iterations, begun);
       burst.tolerance = 0.0;
       burst.max_iterations = std::min(burst.max_iterations, rule_.every);
-      const int asked = burst.max_iterations;
-      Solved next = backend_->solve(problem, std::move(whole.impulses), burst);
-      for (const HistoryPoint& point : next.history)
-        whole.history.push_back(
-            {whole.iterations + point.iteration, begun + point.seconds, point.error});
-      whole.impulses = std::move(next.impulses);
-      if (whole.iterations == 0) whole.start_error = next.start_error;
-      whole.iterations += next.iterations;
-      whole.startup_seconds += next.startup_seconds;
-      whole.own_residual = next.own_residual;
-      whole.end_error = next.end_error;
-      whole.reason = next.reason;
+      const int asked = whole.iterations + burst.max_iterations;
+      whole.go_on(backend_->solve(problem, std::move(whole.impulses), burst), begun);
       // The backend has nothing more to do, or failed, or the rule is met, or nothing is left.
-      if (next.iterations < asked || whole.impulses.size() != problem.row_count()) return whole;
+      if (whole.iterations < asked || whole.impulses.size() != problem.row_count()) return whole;
       if (local_change(contacts_, whole.impulses).within(rule_.tolerance)) {
         whole.reason = StopReason::stalled;
         return whole;

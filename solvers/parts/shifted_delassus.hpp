@@ -37,11 +37,9 @@ class ShiftedDelassus {
   void solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
   ContactOperator* w_ = nullptr;
-  bool dynamics_ = false;
-  BodyMatrix bodies_;     ///< dynamics form
-  SparseRows h_;          ///< the same
-  SparseColumns stored_;  ///< W
-  FrontLu sum_;           ///< W + P
+  BodyMatrix bodies_;  ///< dynamics form
+  SparseRows h_;       ///< the same
+  FrontLu sum_;        ///< W + P, of a stored W
   Eigen::VectorXd scaled_, body_, contact_, residual_, correction_;
 };
 

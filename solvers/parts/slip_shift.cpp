@@ -90,7 +90,7 @@ double SlipShift::convex_error(const ContactOperator& w, const Impulses& r,
   return mean.value();
 }
 
-double SlipShift::improve(const ContactOperator& w, const Eigen::VectorXd& u) {
+void SlipShift::improve(const ContactOperator& w, const Eigen::VectorXd& u) {
   const double now = distance(w, u);
   for (int c = 0; c < w.contact_count(); ++c)
     image_[c] = w.friction(c) * tangential_norm(w.at(u, c));
@@ -100,7 +100,6 @@ double SlipShift::improve(const ContactOperator& w, const Eigen::VectorXd& u) {
   // An extrapolation may overshoot; no speed is negative.
   s_ = s_.cwiseMax(0.0);
   last_distance_ = now;
-  return now;
 }
 
 }  // namespace ballast

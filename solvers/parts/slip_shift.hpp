@@ -56,9 +56,8 @@ class SlipShift {
   /// s := mu |u_T|.
   void follow(const ContactOperator& w, const Eigen::VectorXd& u);
   /// One outer step after an inner solve that gave `u`: s towards mu |u_T|, Anderson-accelerated;
-  /// where the distance has grown since the last call, the plain step from afresh. Returns that
-  /// distance, rms over contacts [m/s].
-  double improve(const ContactOperator& w, const Eigen::VectorXd& u);
+  /// where the distance has grown since the last call, the plain step from afresh.
+  void improve(const ContactOperator& w, const Eigen::VectorXd& u);
   /// The distance |s - mu |u_T||, rms over contacts [m/s].
   double distance(const ContactOperator& w, const Eigen::VectorXd& u) const;
   /// |r - P_K(r - rho (u + s n))| / rho, rms over the contacts that move: how far the convex

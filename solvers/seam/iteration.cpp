@@ -59,11 +59,15 @@ void Iteration::evaluated(double error, const Impulses& r) {
     reason_ = StopReason::stalled;
 }
 
-void Course::run(const Part& part) {
+void Course::run(Solver& solver, const FrictionProblem& problem, int most_iterations,
+                 decltype(Budget::gives_up) gives_up) {
   const int before = count_;
   const double began = seconds();
-  // The part works on a copy: the best iterate may have to stay.
-  Solved done = part(best_, rest(began));
+  Budget left = budget_.after(before, began);
+  left.max_iterations = std::min(most_iterations, left.max_iterations);
+  left.gives_up = std::move(gives_up);
+  // The solver works on a copy: the best iterate may have to stay.
+  Solved done = solver.solve(problem, best_, left);
   if (error_ == unknown && !std::isnan(done.start_error)) {
     error_ = done.start_error;
     see(error_);
@@ -79,13 +83,6 @@ void Course::run(const Part& part) {
   error_ = error;
   best_at_ = count_;
   best_ = std::move(done.impulses);
-}
-
-void Course::run(Solver& solver, const FrictionProblem& problem, int most_iterations) {
-  run([&](Impulses start, Budget left) {
-    left.max_iterations = std::min(most_iterations, left.max_iterations);
-    return solver.solve(problem, std::move(start), left);
-  });
 }
 
 void Course::offer(const Impulses& r, double error) {
@@ -112,8 +109,8 @@ void Course::remember(int iterations, double seconds, double error) {
   history_.push_back({iterations, seconds, error});
 }
 
-Budget Course::rest(double now) const {
-  Budget rest = budget_.after(count_, now);
+Budget Course::rest() const {
+  Budget rest = budget_.after(count_, seconds());
   rest.gives_up = {};
   return rest;
 }

@@ -15,16 +15,13 @@ namespace ballast {
 /// What every solve books: its budget, its clock, iterations, history. The clock starts here.
 class SolveBook {
  public:
-  /// A hair below the tolerance, because the judge sums in another order than a backend does.
-  static constexpr double margin = 1e-3;
-
   explicit SolveBook(const Budget& budget) : budget_(budget) {}
 
   int count() const { return count_; }  ///< of iterations
   double seconds() const { return watch_.seconds() - startup_; }
   bool is_late() const { return watch_.has_passed(budget_.max_seconds + startup_); }
   /// Small enough to stop [m/s].
-  bool reached(double error) const { return error <= budget_.tolerance * (1.0 - margin); }
+  bool reached(double error) const { return error <= budget_.tolerance * (1.0 - stop_margin); }
   /// So much of the time that has passed was start-up (Solved::startup_seconds): no limit and no
   /// history counts it.
   void add_startup(double seconds) { startup_ += seconds; }
@@ -103,18 +100,14 @@ class Iteration : public SolveBook {
 /// was judged, until over(); then finish().
 class Course : public SolveBook {
  public:
-  /// A solver's part: from `start`, with `left` to spend. `reached_tolerance` says that the course
-  /// is over.
-  using Part = std::function<Solved(Impulses start, Budget left)>;
-
   /// `start` is the best so far.
   Course(const Budget& budget, Impulses start) : SolveBook(budget), best_(std::move(start)) {}
 
-  /// One part, from the best iterate. Its end is kept if it is better, or has reached what was
-  /// asked.
-  void run(const Part& part);
-  /// `solver`, prepared for `problem`, for at most so many iterations.
-  void run(Solver& solver, const FrictionProblem& problem, int most_iterations);
+  /// `solver`, prepared for `problem`, from the best iterate, for at most so many iterations and
+  /// until it `gives_up` (Budget). Its end is kept if it is better, or has reached what was asked,
+  /// with which the course is over.
+  void run(Solver& solver, const FrictionProblem& problem, int most_iterations,
+           decltype(Budget::gives_up) gives_up = {});
 
   void spend(int iterations) { count_ += iterations; }
   /// An iterate with its error, evaluated from the impulses alone [m/s]. Kept if it is the best, or
@@ -127,7 +120,7 @@ class Course : public SolveBook {
   /// The best is small enough to stop, or nothing is left of the budget.
   bool over() const { return end().has_value(); }
   /// What is left, without Budget::gives_up, which counts from the beginning.
-  Budget rest() const { return rest(seconds()); }
+  Budget rest() const;
 
   /// The best iterate with counts and the history of the best error; `stalled` where neither the
   /// tolerance nor a limit was reached.
@@ -137,7 +130,6 @@ class Course : public SolveBook {
   static constexpr double unknown = 1e300;
 
   std::optional<StopReason> end() const { return reason_to_stop(error_, is_enough_, is_late()); }
-  Budget rest(double now) const;
   void remember(int iterations, double seconds, double error);
 
   double error_ = unknown;

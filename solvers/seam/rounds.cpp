@@ -63,25 +63,6 @@ bool answer_apart(double max_seconds, const std::function<bool(RoundAnswer&)>& c
   return true;
 }
 
-namespace {
-
-/// Rounds without progress: a tenth less error than when it was last seen.
-struct Progress {
-  double from;
-  int idle = 0;
-
-  void see(double best_error, bool is_round_finished) {
-    if (best_error < 0.9 * from) {
-      from = best_error;
-      idle = 0;
-    } else if (is_round_finished) {
-      ++idle;
-    }
-  }
-};
-
-}  // namespace
-
 Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& moving, Impulses start,
                        const Budget& budget, int patience,
                        const std::function<void(const RoundRequest&, RoundAnswer&)>& round) {
@@ -103,8 +84,10 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
   };
   moving.gather(course.best(), best);
   judged(best);
-  Progress progress{course.error()};
-  while (!course.over() && progress.idle < patience) {
+  // Progress is a tenth less error than when it was last seen.
+  double from = course.error();
+  int idle = 0;  // rounds without it
+  while (!course.over() && idle < patience) {
     RoundAnswer answer;
     const Budget left = course.rest();
     const Stopwatch watch;
@@ -112,7 +95,12 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
     if (answer.seconds >= 0.0) course.add_startup(watch.seconds() - answer.seconds);
     course.spend(std::clamp(answer.iterations, 1, left.max_iterations));
     if (answer.x.size() == last.size() && answer.x.allFinite()) judged(answer.x);
-    progress.see(course.error(), answer.finished);
+    if (course.error() < 0.9 * from) {
+      from = course.error();
+      idle = 0;
+    } else if (answer.finished) {
+      ++idle;
+    }
   }
   return course.finish();
 }

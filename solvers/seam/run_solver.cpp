@@ -145,11 +145,8 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
       next.solved.reason = StopReason::reached_tolerance;
       next.verdict = Verdict::solved;
     }
-    for (const HistoryPoint& point : next.solved.history)
-      run.solved.history.push_back({run.solved.iterations + point.iteration,
-                                    run.solve_seconds + point.seconds, point.error});
-    next.solved.history = std::move(run.solved.history);
-    next.solved.iterations += run.solved.iterations;
+    run.solved.go_on(std::move(next.solved), run.solve_seconds);
+    next.solved = std::move(run.solved);
     next.prepare_seconds = run.prepare_seconds;
     next.solve_seconds += run.solve_seconds;
     next.startup_seconds += run.startup_seconds;

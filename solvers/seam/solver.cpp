@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "platform/text.hpp"
 
@@ -27,7 +28,7 @@ bool FclibStop::reached(const Impulses& r, double natural_map) {
   looked_at_ = natural_map;
   const double value = judge_.fclib(*problem_, r, free_norm_);
   aim_ = value > 0.0 ? natural_map * tolerance_ / value : natural_map;
-  return value <= tolerance_ * (1.0 - margin);
+  return value <= tolerance_ * (1.0 - stop_margin);
 }
 
 double Budget::aim() const { return fclib ? fclib->aim() : tolerance; }
@@ -37,6 +38,16 @@ Budget Budget::after(int iterations, double seconds) const {
   rest.max_iterations = std::max(0, max_iterations - iterations);
   rest.max_seconds = std::max(0.0, max_seconds - seconds);
   return rest;
+}
+
+void Solved::go_on(Solved next, double seconds) {
+  for (const HistoryPoint& point : next.history)
+    history.push_back({iterations + point.iteration, seconds + point.seconds, point.error});
+  next.history = std::move(history);
+  if (iterations > 0) next.start_error = start_error;
+  next.iterations += iterations;
+  next.startup_seconds += startup_seconds;
+  *this = std::move(next);
 }
 
 }  // namespace ballast

@@ -44,6 +44,9 @@ const char* name_of(StopReason reason);
 const char* name_of(Verdict verdict);
 const char* name_of(ContactLaw law);
 
+/// Solvers stop a hair below a tolerance: the judge sums in another order than a backend does.
+inline constexpr double stop_margin = 1e-3;
+
 /// Siconos' measure of an answer (ContactError::fclib, by the judge) as a reason to stop, for
 /// whoever evaluates errors. How it stands to the natural map changes while impulses grow, so no
 /// tolerance on the one can stand for a tolerance on the other.
@@ -54,7 +57,7 @@ class FclibStop {
       : problem_(&problem), tolerance_(tolerance) {}
 
   double tolerance() const { return tolerance_; }
-  /// The measure is below its tolerance. `natural_map` of the same impulses [m/s] says whether a
+  /// The measure is small enough to stop. `natural_map` of the same impulses [m/s] says whether a
   /// look is worth its cost: not while it is neither half of what it was at the last look nor near
   /// the aim. The first looks are always taken. Throws InvalidProblem for a mass block that is not
   /// positive definite.
@@ -62,9 +65,6 @@ class FclibStop {
   /// Where the natural map should stand when the measure is reached [m/s], from the last look;
   /// infinite before the first.
   double aim() const { return aim_; }
-
-  /// reached() asks for a hair less than the tolerance: another judge may sum in another order.
-  static constexpr double margin = 1e-3;
 
  private:
   static constexpr int first_looks = 4;
@@ -120,6 +120,9 @@ struct Solved {
   /// problems converted to its form, its answers judged.
   double startup_seconds = 0.0;
   std::vector<HistoryPoint> history;
+
+  /// Books both as one: `next` began where this one ended, so many seconds after its beginning.
+  void go_on(Solved next, double seconds);
 };
 
 /// A problem that a backend cannot take; what() names the backend and the reason.
@@ -151,6 +154,18 @@ class Solver {
   /// Solved::impulses, so that a run of many steps does not allocate. `problem` is the one given to
   /// prepare().
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;
+};
+
+/// A solver that another one may do without: prepared when its turn comes, as ordering is dear.
+struct LateSolver {
+  std::unique_ptr<Solver> solver;
+  bool is_prepared = false;
+
+  Solver& prepared(const FrictionProblem& problem) {
+    if (!is_prepared) solver->prepare(problem);
+    is_prepared = true;
+    return *solver;
+  }
 };
 
 /// Makes one backend, with the settings that its row in the list stands for.

@@ -111,9 +111,24 @@ TEST_CASE("who has something better to do gives up at a look, but not what is so
 
 namespace {
 
-/// A course's part of so many iterations, from the error 0.5 to another, which has an impulse.
-Course::Part part(int iterations, double impulse, double error,
-                  StopReason reason = StopReason::iteration_limit) {
+/// A solve in a course: from `start`, with `left` to spend.
+using Part = std::function<Solved(Impulses start, const Budget& left)>;
+
+void run(Course& course, const Part& part) {
+  struct Once final : Solver {
+    explicit Once(const Part& given) : part(given) {}
+    void prepare(const FrictionProblem&) override {}
+    Solved solve(const FrictionProblem&, Impulses start, const Budget& left) override {
+      return part(std::move(start), left);
+    }
+    const Part& part;
+  } solver(part);
+  course.run(solver, {}, 1 << 30);
+}
+
+/// Of so many iterations, from the error 0.5 to another, which has an impulse.
+Part part(int iterations, double impulse, double error,
+          StopReason reason = StopReason::iteration_limit) {
   return [=](Impulses start, const Budget& left) {
     CHECK_FALSE(left.gives_up);
     Solved solved;
@@ -168,12 +183,12 @@ TEST_CASE("a course keeps the best of all iterates, in whatever order they come"
 TEST_CASE("every part begins at the best iterate, and has what the others left") {
   Course course({.tolerance = 0.0, .max_iterations = 100, .keep_history = true},
                 Impulses::Constant(3, 5.0));
-  course.run(part(5, 0.0, 0.9));  // worse than the start, whose error it tells
+  run(course, part(5, 0.0, 0.9));  // worse than the start, whose error it tells
   CHECK(course.error() == 0.5);
   CHECK(course.best() == Impulses::Constant(3, 5.0));
-  course.run(part(25, 1.0, 0.4));
-  course.run(part(20, 2.0, 0.45));  // worse: not kept
-  course.run([](Impulses start, const Budget& left) {
+  run(course, part(25, 1.0, 0.4));
+  run(course, part(20, 2.0, 0.45));  // worse: not kept
+  run(course, [](Impulses start, const Budget& left) {
     CHECK(start == Impulses::Constant(3, 1.0));
     CHECK(left.max_iterations == 50);
     CHECK(left.keep_history);
@@ -205,16 +220,17 @@ TEST_CASE("a course is over at the tolerance, at a limit, or where nothing is fi
   CHECK(end_of(counted, true) == StopReason::iteration_limit);
   // What a part says it has reached is the answer, though its error is not the smallest.
   Course reached = course_at(0.5);
-  reached.run(part(20, 2.0, 0.9, StopReason::reached_tolerance));
+  run(reached, part(20, 2.0, 0.9, StopReason::reached_tolerance));
   CHECK(reached.best() == Impulses::Constant(1, 2.0));
   CHECK(end_of(reached, true) == StopReason::reached_tolerance);
   // A part that fails leaves the best.
   Course failed = course_at(0.4);
-  failed.run([](Impulses start, const Budget& left) {
+  run(failed, [](Impulses start, const Budget& left) {
     CHECK_FALSE(left.keep_history);  // nobody asked for it
     return part(0, 1.0, 0.5)(start, left);
   });
-  failed.run(part(3, 1.0, std::numeric_limits<double>::quiet_NaN(), StopReason::numerical_failure));
+  run(failed,
+      part(3, 1.0, std::numeric_limits<double>::quiet_NaN(), StopReason::numerical_failure));
   CHECK(failed.best() == Impulses::Zero(1));
   CHECK(end_of(failed, false) == StopReason::stalled);
 }
