@@ -95,6 +95,25 @@ TEST_CASE("a logarithmic axis ends beside its points, and only round values have
   CHECK(numbers("y") == Json{"6", "7", "8", "9"});
 }
 
+TEST_CASE("an axis has room for error bars and for the low side of bands") {
+  if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
+  const TemporaryFolder folder;
+  page::Picture picture;
+  Panel panel{.x_label = "x", .y_label = "y"};
+  panel.curves = {{.x = {0, 1, 2}, .y = {1, 2, 2.5}, .mark = Mark::points, .y_error = {0, 3, 0}},
+                  {.x = {0, 1, 2}, .y = {1, 1, 1}, .mark = Mark::area, .y_low = {-5, 0, 0}}};
+  picture.plot = {.name = "bars", .title = "Bars", .panels = {panel}};
+  page::Page page{.title = "Bars"};
+  page.answers = {.are_given = true, .with_curves = true};
+  page.add({"figure", "Figure", {picture}});
+  page::draw_pictures(page, folder.path());
+  write_whole_file(folder.path() / "page.html", html_of(page));
+  Browser browser(1400, 900);
+  browser.open(folder.path() / "page.html", "", "document.querySelector('#bars canvas')");
+  CHECK(browser.js("(() => { const { y } = Chart.getChart(document.querySelector('#bars canvas'))"
+                   ".scales; return [y.min <= -5, y.max >= 5]; })()") == Json{true, true});
+}
+
 TEST_CASE("the figures of a run tell the values under the pointer") {
   if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
   const DrivenBox& box = driven_box();

@@ -1,10 +1,11 @@
 // One chart: Chart.js draws, and this tells it what, reads out values and listens to keys.
 //
-// A figure is {title, x, y, curves, lines}. Axes: {label, log, min, max}; a label is HTML of the
-// page's own. Curves: {title, ink, dash, width, mark: "line" | "points" | "area", stepped,
-// points}, where a point is {x, y, ...} with what `told(curve, point)` and `opened(point)` need;
-// an area's has its lower bound `low`. Lines: {value, vertical, label}. Curves of one title are
-// switched together by the legend.
+// A figure is {title, x, y, curves, lines}. Axes: {label, log, min, max, low, high}, from min to
+// max where these are given, else at least from low to high; a label is HTML of the page's own.
+// Curves: {title, ink, dash, width, mark: "line" | "points" | "area", stepped, points}, where a
+// point is {x, y, ...} with what `told(curve, point)` and `opened(point)` need; an area's has its
+// lower bound `low`. Lines: {value, vertical, label}. Curves of one title are switched together by
+// the legend.
 
 const charts = new Set();
 
@@ -12,6 +13,8 @@ const axis_of = (axis) => ({
   type: axis.log ? "logarithmic" : "linear",
   min: axis.min,
   max: axis.max,
+  suggestedMin: axis.low,
+  suggestedMax: axis.high,
   bounds: "ticks",
   border: { color: variable("grey") },
   // a logarithmic axis has more ticks than numbers: lines stand at numbers only

@@ -1,11 +1,13 @@
 // Figures that were drawn by gnuplot become charts: the same curves, whose numbers stand in the
 // page. In print the drawn ones stay.
 
-/// A logarithmic axis ends beside what it shows, not at the next powers of ten.
-function log_range(axis, places) {
-  const shown = places.filter((place) => place > 0);
-  if (!axis.log || !shown.length) return axis;
+/// The axis with an end for what it shows; a logarithmic one ends beside that, not at the next
+/// powers of ten.
+function range_of(axis, places) {
+  const shown = places.filter((place) => place !== null && (!axis.log || place > 0));
+  if (!shown.length) return axis;
   const low = Math.min(...shown), high = Math.max(...shown);
+  if (!axis.log) return { ...axis, low, high };
   const beside = Math.max((high / low) ** 0.04, 1.1);
   return { ...axis, min: axis.min ?? low / beside, max: axis.max ?? high * beside };
 }
@@ -25,9 +27,10 @@ function panel_figure(picture, panel) {
   });
   const curves = panel.curves.map(curve_of), points = curves.flatMap((curve) => curve.points);
   const across = panel.lines.filter((line) => !line.vertical).map((line) => line.value);
-  return { title: picture.title, x: log_range(panel.x, points.map(({ x }) => x)),
-           y: log_range(panel.y, [...points.map(({ y }) => y), ...across]), lines: panel.lines,
-           curves };
+  const heights = points.filter(({ y }) => y !== null).flatMap(({ y, error, low }) =>
+    [y, low ?? y, y - (error ?? 0), y + (error ?? 0)]);
+  return { title: picture.title, x: range_of(panel.x, points.map(({ x }) => x)),
+           y: range_of(panel.y, [...heights, ...across]), lines: panel.lines, curves };
 }
 
 function picture_charts(picture) {

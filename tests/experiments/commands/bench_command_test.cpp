@@ -50,11 +50,12 @@ TEST_CASE("steps are measured, and how is kept with them") {
 
 namespace {
 
-/// Two turns of a step beside another program, a comparison, and a run.
+/// Two turns of a step beside another program, a comparison, and a run. Sanitizers take more address
+/// space than the comparison's limit.
 const char* const small_page = R"(<!--
 step x2: bench step BOX --steps 3 --no-plot --packing-cache packings
 other x2: beside
-known x1: compare known:contacts=12,bodies=6,count=3 --solvers pgs,nncg --no-report
+known x1: compare known:contacts=12,bodies=6,count=3 --solvers pgs,nncg --memory 0 --no-report
 run x1: run zeno_ball --set scene.duration=0.01 --no-report --continue
 -->
 |{{step: 1 thread, all/step over other: step}}|{{known: pgs to 0.0001, solved}}|
