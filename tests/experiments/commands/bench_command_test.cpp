@@ -50,8 +50,8 @@ TEST_CASE("steps are measured, and how is kept with them") {
 
 namespace {
 
-/// Two turns of a step beside another program, a comparison, and a run. Sanitizers take more address
-/// space than the comparison's limit.
+/// Two turns of a step beside another program, a comparison, and a run. Sanitizers take more
+/// address space than the comparison's limit.
 const char* const small_page = R"(<!--
 step x2: bench step BOX --steps 3 --no-plot --packing-cache packings
 other x2: beside
