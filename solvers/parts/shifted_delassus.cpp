@@ -7,15 +7,18 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
   const FrictionProblem& problem = w.problem();
   shift.resize(problem.contact_count());
   sigma.resize(problem.contact_count());
-  if (!problem.has_dynamics) return;
-  h_ = sparse_h(problem);
-  bodies_.prepare(problem);
+  dynamics_ = problem.has_dynamics;
+  if (dynamics_) {
+    h_ = sparse_h(problem);
+    return bodies_.prepare(problem);
+  }
+  stored_ = problem.delassus.w;
 }
 
 bool ShiftedDelassus::factor() {
+  if (dynamics_) return bodies_.factor(sigma);
+  SparseColumns sum = stored_;
   const FrictionProblem& problem = w_->problem();
-  if (problem.has_dynamics) return bodies_.factor(sigma);
-  SparseColumns sum = problem.delassus.w;
   for (int c = 0; c < problem.contact_count(); ++c)
     for (int j = 0; j < problem.contact_rows(c); ++j)
       for (int i = 0; i < problem.contact_rows(c); ++i)
@@ -26,9 +29,9 @@ bool ShiftedDelassus::factor() {
 }
 
 void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  const FrictionProblem& problem = w_->problem();
-  if (!problem.has_dynamics) return sum_.solve(b, x);
+  if (!dynamics_) return sum_.solve(b, x);
   // Woodbury: x = Sigma (b - H (M + H^T Sigma H)^-1 H^T Sigma b).
+  const FrictionProblem& problem = w_->problem();
   scaled_.resize(b.size());
   for (int c = 0; c < problem.contact_count(); ++c) w_->put(scaled_, c, sigma[c] * w_->at(b, c));
   contact_to_body_impulse(problem.dynamics, problem.row_begin, scaled_, body_);

@@ -37,9 +37,11 @@ class ShiftedDelassus {
   void solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
   ContactOperator* w_ = nullptr;
-  BodyMatrix bodies_;  ///< dynamics form
-  SparseRows h_;       ///< the same
-  FrontLu sum_;        ///< W + P, of a stored W
+  bool dynamics_ = false;
+  BodyMatrix bodies_;     ///< dynamics form
+  SparseRows h_;          ///< the same
+  SparseColumns stored_;  ///< W
+  FrontLu sum_;           ///< W + P
   Eigen::VectorXd scaled_, body_, contact_, residual_, correction_;
 };
 
