@@ -203,7 +203,8 @@ void pack_walls(const ViewData& view, const std::vector<size_t>& chosen, Json& h
 /// friction that is used, and places from the centre of grain a, over that grain's circumradius.
 void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size_t stride,
                    Json& head, page::Replay& replay) {
-  Words body_a, body_b, forces;
+  std::vector<std::int32_t> body_a, body_b;
+  Words forces;
   std::vector<double> normal_forces;
   std::array<Bytes, 3> places;
   Bytes mobilised;
@@ -229,8 +230,8 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
                               : std::pair(contact.body_b, contact.body_a);
       const RigidBody& body = view.system.bodies[a];
       const double reach = body.is_wall() ? 1.0 : body.shape.polyhedron->circumradius();
-      body_a.push_back(static_cast<std::uint16_t>(a - last));
-      body_b.push_back(static_cast<std::uint16_t>(b - a));
+      body_a.push_back(a - last);
+      body_b.push_back(b - a);
       last = a;
       const Vec3 place =
           (contact.position.cast<double>() - frame.pose[a].position) / (1.02 * reach);

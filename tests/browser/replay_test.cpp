@@ -10,6 +10,7 @@
 #include "platform/text.hpp"
 #include "tests/browser/driven_box.hpp"
 #include "tests/support/captured_run.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace ballast {
 namespace {
@@ -222,6 +223,31 @@ TEST_CASE("what is most wrong stands out from a light and a dark ground") {
         "Math.min(...two); })()");
     CHECK(contrast > 4.5);
   }
+}
+
+TEST_CASE("a body whose number needs more than 16 bits is seen where it is") {
+  if (Browser::is_missing()) return;
+  const TemporaryFolder folder;
+  const fs::path mesh = folder.write("t.obj",
+                                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                     "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  ViewData view = view_of_mesh(mesh);
+  constexpr int count = 65540;
+  MechanicalSystem& system = view.system;
+  system.bodies.assign(count, RigidBody(system.bodies[0]));
+  system.grain_count = count;
+  MotionState& frame = view.frames[0];
+  frame.pose.assign(count, Pose{Vec3(60.0, 0.0, 0.0), frame.pose[0].rotation});
+  frame.pose.back().position = Vec3::Zero();  // all but the last are at one place
+  frame.velocity.assign(count, Vec3::Zero());
+  frame.spin = frame.velocity;
+  write_view_page(view, folder.path() / "page.html");
+  Browser browser(900, 700);
+  browser.open(folder.path() / "page.html", "play=0", is_ready);
+  CHECK(browser.js(printed("(() => { const r = ballastReplay, s = r.stages[0], at = r.projected("
+                           "r.camera.matrix(s.aspect), r.data.centreOf(%d)); return s.pick("
+                           "r.look(0), ...at); })()",
+                           count - 1)) == count - 1);
 }
 
 TEST_CASE("narrow, dark, and without 3D") {

@@ -56,7 +56,7 @@ class Data {
   static async load() {
     const kinds = { shapes: Uint16Array, grains: Float32Array, positions: Uint16Array,
       rotations: Uint16Array, velocities: Uint8Array, walls: Float32Array, series: Float32Array,
-      contact_bodies: Uint16Array, contact_places: Uint8Array, contact_forces: Uint16Array,
+      contact_bodies: Int32Array, contact_places: Uint8Array, contact_forces: Uint16Array,
       contact_mobilised: Uint8Array, errors: Uint8Array }, parts = {};
     await Promise.all(Object.entries(kinds).map(async ([name, kind]) => {
       parts[name] = numbersOf(await partBytes(name), kind);
@@ -109,8 +109,8 @@ class Data {
   }
 
   readContacts(parts) {
-    const words = parts.contact_bodies, count = words.length / 2;
-    const a = new Uint16Array(count), b = new Uint16Array(count);
+    const steps = parts.contact_bodies, count = steps.length / 2;
+    const a = new Int32Array(count), b = new Int32Array(count);
     const reach = this.shapes.map(({ vertices }) => {
       let square = 0;
       for (let v = 0; v < vertices.length; v += 3)
@@ -123,8 +123,8 @@ class Data {
     this.contactFrames = (this.head.contact_frames || []).map((frame, k) => {
       const begin = at, end = begin + this.head.contact_counts[k];
       for (let last = 0; at < end; ++at) {
-        last = a[at] = last + words[at];
-        b[at] = a[at] + words[count + at];
+        last = a[at] = last + steps[at];
+        b[at] = a[at] + steps[count + at];
         strength[at] = (force[at] / 4095) ** 2 * this.head.largest_force;
       }
       return { frame, begin, end };

@@ -1,5 +1,6 @@
-// The triangles of all grains as one buffer. A corner has 12 bytes: position (int16 x 3), grain
-// (uint16), normal (int8 x 3), and which edges of its triangle lie inside a face.
+// The triangles of all grains as one buffer. A corner has 12 bytes: position (int16 x 3), the
+// grain's number modulo 2^16 (uint16), normal (int8 x 3), and in 8 bits which edges of its triangle
+// lie inside a face (3) and the grain's number / 2^16 (5).
 
 class Mesh {
   constructor(data) {
@@ -19,7 +20,7 @@ class Mesh {
             small[12 * at + 8 + k] = Math.round(127 * normal[k]);
           }
           words[6 * at + 3] = grain;
-          small[12 * at + 11] = hidden;
+          small[12 * at + 11] = hidden | (grain >> 16) << 3;
           ++at;
         }
     });

@@ -34,9 +34,9 @@ void pose(uint g, out vec4 p, out vec4 q) {
 
 const grainVertex = poseText + `
 layout(location = 0) in vec3 corner;
-layout(location = 1) in uint grain;
+layout(location = 1) in uint lowGrain;
 layout(location = 2) in vec3 normal;
-layout(location = 3) in uint hidden;
+layout(location = 3) in uint hidden;  // and the high bits of the grain's number: mesh.js
 uniform mat4 camera;
 uniform highp sampler2D ramp;
 uniform float scale;
@@ -47,6 +47,7 @@ flat out float chosen;
 flat out uint number;
 void main() {
   vec4 p, q;
+  uint grain = lowGrain | hidden >> 3 << 16;
   number = grain + 1u;
   pose(grain, p, q);
   place = p.xyz + turn(q, corner * scale);
@@ -108,7 +109,7 @@ void main() {
 #ifdef CUT
   if (dot(cut.xyz, place) > cut.w) discard;
 #endif
-  colour = vec4(float(number & 255u), float(number >> 8 & 255u), 0., 255.) / 255.;
+  colour = vec4(number & 255u, number >> 8 & 255u, number >> 16, 255) / 255.;
 }`;
 
 // A polygon of a wall with a grid that moves with it, or the ground with its shadow.

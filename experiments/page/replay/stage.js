@@ -175,7 +175,7 @@ class Stage {
     this.drawNumbers(look.camera.matrix(this.aspect), look);
     gl.readPixels(Math.floor(x * numberSize), Math.floor((1 - y) * numberSize), 1, 1, gl.RGBA,
       gl.UNSIGNED_BYTE, pixel);
-    return (pixel[0] | pixel[1] << 8) - 1;
+    return (pixel[0] | pixel[1] << 8 | pixel[2] << 16) - 1;
   }
 
   drawGrains(look) {
