@@ -36,11 +36,12 @@ function asks() {
       if (field !== document.activeElement) field.value = choice.get(field.name);
     bar.querySelectorAll("select").forEach((field) => { field.value = chosen[field.name]; });
   };
+  const [least, most] = extent(all_contacts);
   const line = element("div", { class: "line" },
     select_of("tolerance", "tolerance", all_tolerances, chosen.tolerance),
     all_starts.length > 1 ? select_of("start", "start", all_starts, chosen.start) : null,
-    field_of("from", "contacts from", "number", String(Math.min(...all_contacts))),
-    field_of("to", "to", "number", String(Math.max(...all_contacts))),
+    field_of("from", "contacts from", "number", String(least)),
+    field_of("to", "to", "number", String(most)),
     field_of("find", "case", "search", "part of a name"));
   bar.append(line);
   if (all_families.length > 1) bar.append(switches_of("without_family", "families", all_families));

@@ -77,8 +77,9 @@ const decade_below = (value) => 10 ** Math.floor(Math.log10(value) + 1e-9);
 function cost_profiles({ solvers, cases }, cost_of, first = null) {
   const costs = solvers.map((solver, s) => cases.map((one) => cost_of(one.cells[s].median, one)));
   const known = costs.flat().filter((cost) => Number.isFinite(cost) && cost > 0);
-  const start = first ?? (known.length ? decade_below(Math.min(...known)) : 1e-6);
-  const last = Math.max(10 * start, known.length ? decade_above(Math.max(...known)) : 1);
+  const [least, most] = extent(known);
+  const start = first ?? (known.length ? decade_below(least) : 1e-6);
+  const last = Math.max(10 * start, known.length ? decade_above(most) : 1);
   return { first: start, last, curves: costs.map((values, s) =>
     counted_steps(values, cases.map((c) => c.cells[s].row), start, last)) };
 }
@@ -92,7 +93,7 @@ const time_per_contact = (median, { row }) => median / Math.max(1, row.contacts)
 /// Geometric mean over histories of the least error by then, at `count` times.
 function mean_history(histories, count) {
   const times = histories.flat().map((p) => p.x).filter((x) => x > 0);
-  const first = Math.min(...times), last = Math.max(...times);
+  const [first, last] = extent(times);
   if (!(last > first)) return [];
   return Array.from({ length: count + 1 }, (_, k) => {
     const x = first * (last / first) ** (k / count);

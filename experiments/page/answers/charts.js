@@ -104,7 +104,7 @@ function line_of(line, chart_points) {
   return {
     label: "", is_line: true, line, showLine: true,
     pointRadius: 0, pointHitRadius: 0, pointHoverRadius: 0,
-    data: [Math.min(...places), Math.max(...places)].map((place) => (
+    data: extent(places).map((place) => (
       { [along]: place, [across]: line.value })),
     borderColor: variable("grey"), borderWidth: 1.2, borderDash: [3, 4],
   };
@@ -136,7 +136,7 @@ const line_words = {
 function along_of({ x, curves }) {
   const places = curves.flatMap((curve) => curve.points.map((point) => point.x));
   if (x.log || !places.length) return x;
-  const low = Math.min(...places), high = Math.max(...places);
+  const [low, high] = extent(places);
   return high > low ? { ...x, min: x.min ?? low, max: x.max ?? high } : x;
 }
 

@@ -42,6 +42,16 @@ function value_of(text) {
   return Number(found[1]) * 10 ** Number(power) * unit;
 }
 
+/// [least, largest] of any number of values. (A call takes about 1e5 arguments.)
+function extent(values) {
+  let low = Infinity, high = -Infinity;
+  for (const value of values) {
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  return [low, high];
+}
+
 /// One line of a CSV file.
 const csv_line = (cells) =>
   cells.map((cell) => (/[",\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell)).join(",");

@@ -6,7 +6,7 @@
 function range_of(axis, places) {
   const shown = places.filter((place) => place !== null && (!axis.log || place > 0));
   if (!shown.length) return axis;
-  const low = Math.min(...shown), high = Math.max(...shown);
+  const [low, high] = extent(shown);
   if (!axis.log) return { ...axis, low, high };
   const beside = Math.max((high / low) ** 0.04, 1.1);
   return { ...axis, min: axis.min ?? low / beside, max: axis.max ?? high * beside };

@@ -14,15 +14,16 @@ class Shades {
   constructor(data) {
     this.data = data;
     const { head } = data, last = data.times.length - 1;
-    // tops of the scales: nearly all grains at nearly all times are below
-    const speeds = [], moves = [], turns = [];
+    // tops of the scales: nearly all grains at nearly all times are below. Of many a part is asked.
+    const speeds = [], moves = [], turns = [], every = Math.max(1, Math.floor(head.grains / 5000));
     for (let f = 0; f <= last; f += Math.max(1, Math.floor(last / 20)))
-      for (let g = 0; g < head.grains; ++g) {
+      for (let g = 0; g < head.grains; g += every) {
         speeds.push(this.speed(g, f));
         moves.push(this.moved(g, f));
         turns.push(this.turnedBy(g, f));
       }
-    const smallest = Math.min(...data.size), largest = Math.max(...data.size);
+    const smallest = data.size.reduce((a, b) => Math.min(a, b), Infinity);
+    const largest = data.size.reduce((a, b) => Math.max(a, b), 0);
     const top = (values) => quantile(values, 0.999) || 1;
     const root = { share: (v, most) => Math.sqrt(v / most), ramp: "heat" };
     const even = { share: (v, most) => v / most, ramp: "heat" };
