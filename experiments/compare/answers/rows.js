@@ -25,8 +25,7 @@ function cells_of_text(text) {
   return cells;
 }
 
-/// Gives rows the cells of `text` as row[name + "_text"], and as row[name] what `read`
-/// makes of it.
+/// Gives rows the cells of `text` as row[name + "_text"], and as row[name] what `read` makes of it.
 function add_column(name, text, read) {
   let texts = null, values = null;
   const get_texts = () => (texts ??= cells_of_text(text));
@@ -82,9 +81,9 @@ const command_of = (row) => page_data.again
 
 /// Errors of a row's history as what was reached by then: [{x: seconds, y: error, row}].
 function history_of(row) {
+  if (row.reached) return row.reached;
   const flat = row.history ? row.history.split(" ").map(Number) : [];
-  row.reached ??= flat.flatMap((x, k) => (k % 2 ? [] : [{ x, y: flat[k + 1], row }]));
-  return row.reached;
+  return row.reached = flat.flatMap((x, k) => (k % 2 ? [] : [{ x, y: flat[k + 1], row }]));
 }
 
 /// Rows by the value of a column, in the order of their first ones.
