@@ -40,6 +40,19 @@ page::Page wide_page() {
   return page;
 }
 
+/// A page of one figure that answers.
+std::filesystem::path page_of(const Panel& panel, const std::string& name,
+                              const TemporaryFolder& folder) {
+  page::Picture picture;
+  picture.plot = {.name = name, .title = name, .panels = {panel}};
+  page::Page page{.title = name};
+  page.answers = {.are_given = true, .with_curves = true};
+  page.add({"figure", "Figure", {picture}});
+  page::draw_pictures(page, folder.path());
+  write_whole_file(folder.path() / "page.html", html_of(page));
+  return folder.path() / "page.html";
+}
+
 }  // namespace
 
 TEST_CASE("later curves stand above earlier ones, and no column is cut where there is room") {
@@ -75,18 +88,11 @@ TEST_CASE("later curves stand above earlier ones, and no column is cut where the
 TEST_CASE("a logarithmic axis ends beside its points, and only round values have numbers") {
   if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
   const TemporaryFolder folder;
-  page::Picture picture;
   Panel panel{.x_label = "x", .y_label = "y", .log_x = true, .log_y = true};
   panel.curves = {{.x = {0.006, 0.02, 0.036}, .y = {6, 7, 9}, .mark = Mark::points}};
   panel.lines = {{.value = 0.02, .vertical = true}};
-  picture.plot = {.name = "log", .title = "Logarithms", .panels = {panel}};
-  page::Page page{.title = "Logarithms"};
-  page.answers = {.are_given = true, .with_curves = true};
-  page.add({"figure", "Figure", {picture}});
-  page::draw_pictures(page, folder.path());
-  write_whole_file(folder.path() / "page.html", html_of(page));
   Browser browser(1400, 900);
-  browser.open(folder.path() / "page.html", "", "document.querySelector('#log canvas')");
+  browser.open(page_of(panel, "log", folder), "", "document.querySelector('#log canvas')");
   const auto numbers = [&](const std::string& axis) {
     return browser.js("Chart.getChart(document.querySelector('#log canvas')).scales." + axis +
                       ".ticks.map((tick) => tick.label).filter(Boolean)");
@@ -98,18 +104,11 @@ TEST_CASE("a logarithmic axis ends beside its points, and only round values have
 TEST_CASE("an axis has room for error bars and for the low side of bands") {
   if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
   const TemporaryFolder folder;
-  page::Picture picture;
   Panel panel{.x_label = "x", .y_label = "y"};
   panel.curves = {{.x = {0, 1, 2}, .y = {1, 2, 2.5}, .mark = Mark::points, .y_error = {0, 3, 0}},
                   {.x = {0, 1, 2}, .y = {1, 1, 1}, .mark = Mark::area, .y_low = {-5, 0, 0}}};
-  picture.plot = {.name = "bars", .title = "Bars", .panels = {panel}};
-  page::Page page{.title = "Bars"};
-  page.answers = {.are_given = true, .with_curves = true};
-  page.add({"figure", "Figure", {picture}});
-  page::draw_pictures(page, folder.path());
-  write_whole_file(folder.path() / "page.html", html_of(page));
   Browser browser(1400, 900);
-  browser.open(folder.path() / "page.html", "", "document.querySelector('#bars canvas')");
+  browser.open(page_of(panel, "bars", folder), "", "document.querySelector('#bars canvas')");
   CHECK(browser.js("(() => { const { y } = Chart.getChart(document.querySelector('#bars canvas'))"
                    ".scales; return [y.min <= -5, y.max >= 5]; })()") == Json{true, true});
 }
