@@ -118,8 +118,9 @@ struct GroupRun {
   const Group* groups;
   GroupImpulses<typename Group::Number, Group::rows>* impulses;
   GroupSearch<typename Group::Number, Group::rows>* search;
-  const int* awake;  ///< those that are swept, ascending; null: the first `count`
-  int count;         ///< of those that are swept
+  const int* awake;     ///< those that are swept, ascending; null: the first `count`
+  int count;            ///< of those that are swept
+  bool is_far = false;  ///< not in a core's cache: a group is fetched while that before it is swept
 
   int group(int i) const { return awake ? awake[i] : i; }
 };

@@ -285,12 +285,26 @@ struct FrictionVector {
   }
 };
 
+template <typename Element>
+BALLAST_INLINE void fetch(const Element& element) {
+  const char* bytes = reinterpret_cast<const char*>(&element);
+#pragma GCC unroll 96
+  for (size_t at = 0; at < sizeof element; at += 64) __builtin_prefetch(bytes + at);
+}
+
 /// The i-th group of each of the first `Runs` runs, K vectors of each in step.
 template <typename V, int K, int Runs, bool Search, typename Run>
 BALLAST_INLINE void sweep_groups(const Run* runs, int i, SearchStep step, LaneSums<V>* sums,
                                  void* bodies) {
   int g[Runs];
-  for (int run = 0; run < Runs; ++run) g[run] = runs[run].group(i);
+  for (int run = 0; run < Runs; ++run) {
+    g[run] = runs[run].group(i);
+    if (!runs[run].is_far || i + 1 >= runs[run].count) continue;
+    const int next = runs[run].group(i + 1);
+    fetch(runs[run].groups[next]);
+    fetch(runs[run].impulses[next]);
+    if constexpr (Search) fetch(runs[run].search[next]);
+  }
 #pragma GCC unroll 4
   for (int lane = 0; lane < group_lanes; lane += K * V::width) {
     FrictionVector<V> vectors[Runs * K];

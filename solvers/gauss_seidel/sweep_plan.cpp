@@ -175,12 +175,12 @@ void ContactGroups::make(std::span<const int> contacts, std::span<const int> bod
   fill_.clear();
   next_.clear();
   last_.assign(bodies, -1);
-  for (const int c : contacts) {
-    const int a = body_a[c], b = body_b[c];
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const int a = body_a[i], b = body_b[i];
     // After both bodies' last groups.
     const int group =
         first_with_room(std::max(a >= 0 ? last_[a] + 1 : 0, b >= 0 ? last_[b] + 1 : 0));
-    lanes_[static_cast<size_t>(group) * group_lanes + fill_[group]] = c;
+    lanes_[static_cast<size_t>(group) * group_lanes + fill_[group]] = contacts[i];
     if (++fill_[group] == group_lanes) next_[group] = group + 1;
     if (a >= 0) last_[a] = group;
     if (b >= 0) last_[b] = group;

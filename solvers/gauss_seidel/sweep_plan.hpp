@@ -75,9 +75,9 @@ class SweepPlan {
 /// the contacts and their order alone, never on the width of registers.
 class ContactGroups {
  public:
-  /// Groups of these contacts. A contact goes into the first group that has a free lane and comes
-  /// after all groups with one of its bodies. `body_a`, `body_b`: of each contact, 0 .. bodies - 1;
-  /// -1: nothing that could be shared.
+  /// A contact goes into the first group that has a free lane and comes after all groups with one
+  /// of its bodies. `body_a`, `body_b`: of each of the `contacts`, 0 .. bodies - 1; -1: nothing
+  /// that could be shared.
   void make(std::span<const int> contacts, std::span<const int> body_a, std::span<const int> body_b,
             int bodies);
 

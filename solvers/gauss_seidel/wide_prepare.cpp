@@ -1,6 +1,7 @@
 // What WideSweep makes of a problem before its first sweep: groups, their records, free velocities.
 
 #include <algorithm>
+#include <cstring>
 
 #include "problems/algebra/delassus.hpp"
 #include "solvers/gauss_seidel/wide_sweep.hpp"
@@ -35,15 +36,13 @@ bool is_grain_mass(const double* mass) {
 
 bool WideSweep::prepare(const FrictionProblem& problem) {
   if (!sort_bodies(problem.dynamics) || !may_fill_lanes(problem.dynamics)) return false;
-  if (!group_contacts(problem)) return false;
+  place_bodies(problem.dynamics);
+  if (!group_contacts(problem.dynamics)) return false;
   factor_masses(problem.dynamics, roots_);
-  bool made = true;
-  for_kinds(
-      [&](auto& kind, const auto& loops) { made = made && make_records(problem, kind, loops); },
-      exact_, kernels_->exact);
-  if (made) free_bodies(problem.dynamics);
+  if (!make_records(problem)) return false;
+  free_bodies(problem.dynamics);
   single_made_ = false;
-  return made;
+  return true;
 }
 
 /// Grains and driven walls, or not.
@@ -77,6 +76,7 @@ bool WideSweep::may_fill_lanes(const DynamicsForm& dynamics) {
 /// The rows of a slab's bodies follow each other, those that interfaces meet first; and so that
 /// threads share no line, each part has a zero velocity of its own for what does not move.
 void WideSweep::place_bodies(const DynamicsForm& dynamics) {
+  parts_.assign(plan_.parts().size(), {});
   is_shared_.assign(is_wall_.size(), 0);
   for (const SweepPlan::Part& part : std::span(plan_.parts()).subspan(plan_.slabs()))
     for (int i = part.begin; i < part.end; ++i) {
@@ -104,134 +104,134 @@ void WideSweep::place_bodies(const DynamicsForm& dynamics) {
   }
 }
 
-/// In the order of the plan, part by part.
-bool WideSweep::group_contacts(const FrictionProblem& problem) {
-  const DynamicsForm& dynamics = problem.dynamics;
-  for_kinds(
-      [](auto& kind) {
-        kind.groups.clear();
-        kind.frames.clear();
-      },
-      exact_);
-  // Of each contact, the grains: walls are no conflict, and go by themselves.
-  const auto grains = [&](const std::vector<int>& given, std::vector<int>& kept) {
-    kept.assign(given.begin(), given.end());
-    for (int& body : kept)
-      if (body >= 0 && is_wall_[body]) body = -1;
-  };
-  grains(dynamics.body_a, grain_a_);
-  grains(dynamics.body_b, grain_b_);
+/// In the order of the plan. Every thread groups its share of the parts.
+bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
+  const int count = static_cast<int>(parts_.size());
+  if (groupings_.size() < parts_.size()) groupings_.resize(parts_.size());
+  run_parts(team_, count, [&](int k) { parts_[k].is_usual = group_part(dynamics, k); });
   contacts_ = 0;
-  parts_.assign(plan_.parts().size(), {});
-  place_bodies(dynamics);
-  for (size_t k = 0; k < parts_.size(); ++k)
-    if (!group_part(problem, plan_.parts()[k], parts_[k])) return false;
-  for_kinds([](auto& kind) { kind.impulses.resize(kind.groups.size()); }, exact_);
-  int groups = 0;
-  for (const Part& part : parts_) groups += part.friction.count + part.one_row.count;
-  size_t walls = 0;
-  for (const GroupFrame& f : exact_.wall.frames)
-    walls += group_lanes - std::count(f.contact, f.contact + group_lanes, -1);
+  int groups = 0, walls = 0;
+  struct {
+    int friction = 0, one_row = 0, wall = 0;
+  } end;  // of each kind's groups
+  for (int k = 0; k < count; ++k) {
+    Part& part = parts_[k];
+    if (!part.is_usual) return false;
+    for_kinds(
+        [this]<typename Group>(const Kind<Group>&, Range& range, int& last) {
+          range.begin = last;
+          last += range.count;
+          // between this part's groups and the next one's
+          if (plan_.slabs() > 1 && size_of(team_) > 1)
+            last += elements_apart<GroupImpulses<float, Group::rows>>();
+        },
+        exact_, part, end);
+    contacts_ += groupings_[k].contacts;
+    walls += groupings_[k].on_walls;
+    groups += part.friction.count + part.one_row.count;
+  }
+  for_kinds(
+      [](auto& kind, int last) {
+        kind.groups.resize(last);
+        kind.frames.resize(last);
+        kind.impulses.resize(last);
+      },
+      exact_, end);
   return contacts_ - walls >= least_fill * group_lanes * groups;
 }
 
-bool WideSweep::group_part(const FrictionProblem& problem, const SweepPlan::Part& part,
-                           Part& made) {
-  const DynamicsForm& dynamics = problem.dynamics;
-  const std::vector<int>& order = plan_.contacts();
-  const auto moves = [&](int c) { return dynamics.body_a[c] >= 0 || dynamics.body_b[c] >= 0; };
+/// Which contacts of a part stand side by side. False: one with friction is on a wall with an
+/// unknown, or one is between two such walls.
+bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
+  const SweepPlan::Part& part = plan_.parts()[number];
+  Part& made = parts_[number];
+  Grouping& grouping = groupings_[number];
+  const std::span<const int> order = plan_.contacts();
+  // Grains by their distance from the part's first row: an interface lies between two slabs that
+  // follow each other.
+  const Part* slab = &parts_[number < plan_.slabs() ? number : number - plan_.slabs()];
+  const Part* last = number < plan_.slabs() ? slab : slab + 1;
+  const int first = slab->bodies.begin, rows = last->bodies.begin + last->bodies.count - first;
   const auto is_wall = [&](int body) { return body >= 0 && is_wall_[body]; };
-  const auto wall_of = [&](int c) {
-    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]})
-      if (is_wall(body)) return body;
-    return -1;
+  const auto row = [&](int body) {
+    return body < 0 || is_wall_[body] ? -1 : row_of_body_[body] - first;
   };
-  const int nowhere = made.nowhere;
-  // With friction, and not on a wall with an unknown.
-  chosen_.clear();
-  for (int i = part.begin; i < part.friction_end; ++i) {
-    if (!moves(order[i])) continue;
-    if (wall_of(order[i]) >= 0) return false;
-    chosen_.push_back(order[i]);
+  const auto group = [&](int begin, int end, int wall, std::vector<int>& lanes) {
+    grouping.chosen.clear();
+    grouping.a.clear();
+    grouping.b.clear();
+    for (const int c : order.subspan(begin, end - begin)) {
+      const int a = dynamics.body_a[c], b = dynamics.body_b[c];
+      if ((a < 0 && b < 0) || (is_wall(a) ? a : is_wall(b) ? b : -1) != wall) continue;
+      grouping.chosen.push_back(c);
+      grouping.a.push_back(row(a));
+      grouping.b.push_back(row(b));
+    }
+    grouping.groups.make(grouping.chosen, grouping.a, grouping.b, rows);
+    for (int g = 0; g < grouping.groups.count(); ++g)
+      lanes.insert(lanes.end(), grouping.groups.lanes(g).begin(), grouping.groups.lanes(g).end());
+    grouping.contacts += static_cast<int>(grouping.chosen.size());
+    return grouping.groups.count();
+  };
+  grouping.begin();
+  // Walls with an unknown, in the order in which they come.
+  for (int i = part.begin; i < part.end; ++i) {
+    const int a = dynamics.body_a[order[i]], b = dynamics.body_b[order[i]];
+    if (!is_wall(a) && !is_wall(b)) continue;
+    if (i < part.friction_end || (is_wall(a) && is_wall(b))) return false;
+    const int wall = is_wall(a) ? a : b;
+    if (std::ranges::find(grouping.walls, wall) == grouping.walls.end())
+      grouping.walls.push_back(wall);
   }
-  made.friction = add_groups(exact_.friction, nowhere);
-  // One row without a wall, then wall after wall.
-  chosen_.clear();
-  walls_.clear();
-  for (int i = part.friction_end; i < part.end; ++i) {
-    if (!moves(order[i])) continue;
-    const int wall = wall_of(order[i]);
-    if (wall >= 0 && is_wall(dynamics.body_a[order[i]]) && is_wall(dynamics.body_b[order[i]]))
-      return false;
-    if (wall < 0)
-      chosen_.push_back(order[i]);
-    else if (std::find(walls_.begin(), walls_.end(), wall) == walls_.end())
-      walls_.push_back(wall);
+  made.friction.count = group(part.begin, part.friction_end, -1, grouping.lanes.friction.contact);
+  made.one_row.count = group(part.friction_end, part.end, -1, grouping.lanes.one_row.contact);
+  const int before = grouping.contacts;
+  for (const int wall : grouping.walls) {
+    const int added = group(part.friction_end, part.end, wall, grouping.lanes.wall.contact);
+    grouping.wall_of_group.insert(grouping.wall_of_group.end(), added, wall);
+    made.wall.count += added;
   }
-  made.one_row = add_groups(exact_.one_row, nowhere);
-  made.wall.begin = static_cast<int>(exact_.wall.groups.size());
-  for (const int wall : walls_) {
-    chosen_.clear();
-    for (int i = part.friction_end; i < part.end; ++i)
-      if (moves(order[i]) && wall_of(order[i]) == wall) chosen_.push_back(order[i]);
-    const Range added = add_groups(exact_.wall, nowhere);
-    for (int g = added.begin; g < added.begin + added.count; ++g)
-      exact_.wall.groups[g].wall_body = row_of_body_[wall] * row_bytes;
-    made.wall.count += added.count;
-  }
-  // Between this part's groups and the next one's.
-  if (plan_.slabs() > 1 && size_of(team_) > 1)
-    for_kinds(
-        [this]<typename Group>(Kind<Group>& kind) {
-          add_empty_groups(kind, elements_apart<GroupImpulses<float, Group::rows>>());
-        },
-        exact_);
+  grouping.on_walls = grouping.contacts - before;
   return true;
 }
 
-template <typename Group>
-void WideSweep::add_empty_groups(Kind<Group>& kind, int count) {
-  GroupFrame empty = {};
-  std::fill_n(empty.contact, group_lanes, -1);
-  kind.groups.resize(kind.groups.size() + count);
-  kind.frames.resize(kind.frames.size() + count, empty);
-}
-
-/// Groups of the contacts in chosen_, empty but for the contacts' numbers.
-template <typename Group>
-WideSweep::Range WideSweep::add_groups(Kind<Group>& kind, int nowhere) {
-  grouping_.make(chosen_, grain_a_, grain_b_, static_cast<int>(is_wall_.size()));
-  const Range range{static_cast<int>(kind.groups.size()), grouping_.count()};
-  contacts_ += static_cast<int>(chosen_.size());
-  add_empty_groups(kind, range.count);
-  for (int g = 0; g < range.count; ++g) {
-    Group& k = kind.groups[range.begin + g];
-    std::copy_n(grouping_.lanes(g).begin(), group_lanes, kind.frames[range.begin + g].contact);
-    for (auto& side : k.body) std::fill_n(side, group_lanes, nowhere * row_bytes);
-    std::fill_n(k.bias[0], group_lanes, 1.0);  // open
-  }
-  return range;
-}
-
-/// Every thread makes its share: records do not depend on each other.
-template <typename Group>
-bool WideSweep::make_records(const FrictionProblem& problem, Kind<Group>& kind,
-                             const ExactLoops<Group>& loops) {
-  std::vector<char> made(size_of(team_), 1);
-  run_parts(team_, size_of(team_), [&](int member) {
-    const size_t begin = kind.groups.size() * member / size_of(team_),
-                 end = kind.groups.size() * (member + 1) / size_of(team_);
-    for (size_t g = begin; g < end; ++g) {
-      Group& k = kind.groups[g];
-      GroupFrame& f = kind.frames[g];
-      for (int lane = 0; lane < group_lanes; ++lane)
-        if (f.contact[lane] >= 0 && !fill_lane(problem, k, f, lane)) made[member] = 0;
-      loops.make_principal(&k, &f, 1);
-      for (int lane = 0; lane < group_lanes; ++lane)  // nothing moves it along its normal?
-        if (f.contact[lane] >= 0 && !(f.lambda_max[lane] > 0.0)) made[member] = 0;
-    }
+/// Every thread makes those of its share of the parts.
+bool WideSweep::make_records(const FrictionProblem& problem) {
+  run_parts(team_, static_cast<int>(parts_.size()), [&](int number) {
+    Part& part = parts_[number];
+    const Grouping& grouping = groupings_[number];
+    for_kinds(
+        [&](auto& kind, const auto& lanes, const Range& range, const auto& loops) {
+          for (int g = 0; g < range.count; ++g) {
+            auto& k = kind.groups[range.begin + g];
+            const bool made = make_group(problem, lanes.contact.data() + g * group_lanes,
+                                         part.nowhere, k, kind.frames[range.begin + g], loops);
+            part.is_usual = part.is_usual && made;
+            if constexpr (requires { k.wall; })
+              k.wall_body = row_of_body_[grouping.wall_of_group[g]] * row_bytes;
+          }
+        },
+        exact_, grouping.lanes, part, kernels_->exact);
   });
-  return std::find(made.begin(), made.end(), 0) == made.end();
+  return std::ranges::all_of(parts_, &Part::is_usual);
+}
+
+/// The record of the contacts in `lanes`. False: another kind of contact.
+template <typename Group>
+bool WideSweep::make_group(const FrictionProblem& problem, const int* lanes, int nowhere, Group& k,
+                           GroupFrame& f, const ExactLoops<Group>& loops) const {
+  std::memset(&k, 0, sizeof k);
+  std::memset(&f, 0, sizeof f);
+  std::copy_n(lanes, group_lanes, f.contact);
+  for (auto& side : k.body) std::fill_n(side, group_lanes, nowhere * row_bytes);
+  std::fill_n(k.bias[0], group_lanes, 1.0);  // open
+  bool made = true;
+  for (int lane = 0; lane < group_lanes; ++lane)
+    if (lanes[lane] >= 0 && !fill_lane(problem, k, f, lane)) made = false;
+  loops.make_principal(&k, &f, 1);
+  for (int lane = 0; lane < group_lanes; ++lane)  // nothing moves it along its normal?
+    if (lanes[lane] >= 0 && !(f.lambda_max[lane] > 0.0)) made = false;
+  return made;
 }
 
 /// Rows and bias as the problem gives them, in the bodies' variables. False: the two sides' linear

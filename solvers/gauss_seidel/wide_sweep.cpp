@@ -17,6 +17,9 @@ constexpr double single_rounding = 0x1p-24;
 /// then taken as without rests; a few more with 4 and less.
 constexpr double rests_from = 16.0;
 
+/// Records of more bytes do not stay in a core's cache from sweep to sweep.
+constexpr size_t far_bytes = 4 << 20;
+
 template <typename From, typename To, int Rows>
 void cast_rows(const From (&from)[Rows][group_lanes], To (&to)[Rows][group_lanes]) {
   for (int i = 0; i < Rows; ++i)
@@ -58,29 +61,31 @@ void cast_group(const Double& k, Single& s) {
 }  // namespace
 
 void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
-  for_kinds(
-      [&](auto& kind) {
-        for (size_t g = 0; g < kind.groups.size(); ++g) {
-          kind.impulses[g] = {};
-          const GroupFrame& f = kind.frames[g];
-          auto& y = kind.impulses[g].y;
-          for (int i = 0; i < group_lanes; ++i) {
-            if (f.contact[i] < 0) continue;
-            const double* rc = r.data() + problem.row_begin[f.contact[i]];
-            // The y' of group_kernels.hpp: n r_N + c' . (t r_T), with r_T
-            // turned to the principal tangents.
-            y[0][i] = f.normal[i] * rc[0];
-            if constexpr (requires { kind.groups[g].mu; }) {
-              const auto& k = kind.groups[g];
-              y[1][i] = f.tangent[i] * (f.cosine[i] * rc[1] + f.sine[i] * rc[2]);
-              y[2][i] = f.tangent[i] * (f.cosine[i] * rc[2] - f.sine[i] * rc[1]);
-              y[0][i] += k.c1[i] * y[1][i] + k.c2[i] * y[2][i];
+  for_parts(exact_, [&](const Part& part) {
+    for_kinds(
+        [&](auto& kind, const Range& range) {
+          for (int g = range.begin; g < range.begin + range.count; ++g) {
+            kind.impulses[g] = {};
+            const GroupFrame& f = kind.frames[g];
+            auto& y = kind.impulses[g].y;
+            for (int i = 0; i < group_lanes; ++i) {
+              if (f.contact[i] < 0) continue;
+              const double* rc = r.data() + problem.row_begin[f.contact[i]];
+              // The y' of group_kernels.hpp: n r_N + c' . (t r_T), with r_T
+              // turned to the principal tangents.
+              y[0][i] = f.normal[i] * rc[0];
+              if constexpr (requires { kind.groups[g].mu; }) {
+                const auto& k = kind.groups[g];
+                y[1][i] = f.tangent[i] * (f.cosine[i] * rc[1] + f.sine[i] * rc[2]);
+                y[2][i] = f.tangent[i] * (f.cosine[i] * rc[2] - f.sine[i] * rc[1]);
+                y[0][i] += k.c1[i] * y[1][i] + k.c2[i] * y[2][i];
+              }
             }
           }
-        }
-      },
-      exact_);
-  for_parts(exact_, [this](const Part& part) { push_part(part); });
+        },
+        exact_, part);
+    push_part(part);
+  });
   in_single_ = false;
   single_begins_ = single_allowed_;
 }
@@ -113,26 +118,29 @@ void WideSweep::fetch_shared(const State<Number>& state, const Part& interface) 
 void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
   // What nothing moves is in no group.
   r.setZero(problem.row_count());
-  for_kinds(
-      [&](const auto& kind) {
-        for (size_t g = 0; g < kind.groups.size(); ++g) {
-          const GroupFrame& f = kind.frames[g];
-          const auto& y = kind.impulses[g].y;
-          for (int i = 0; i < group_lanes; ++i) {
-            if (f.contact[i] < 0) continue;
-            double* rc = r.data() + problem.row_begin[f.contact[i]];
-            rc[0] = f.inverse_normal[i] * y[0][i];
-            if constexpr (requires { kind.groups[g].mu; }) {
-              const auto& k = kind.groups[g];
-              rc[0] = f.inverse_normal[i] * (y[0][i] - k.c1[i] * y[1][i] - k.c2[i] * y[2][i]);
-              const double t1 = f.inverse_tangent[i] * y[1][i], t2 = f.inverse_tangent[i] * y[2][i];
-              rc[1] = f.cosine[i] * t1 - f.sine[i] * t2;
-              rc[2] = f.sine[i] * t1 + f.cosine[i] * t2;
+  run_parts(team_, static_cast<int>(parts_.size()), [&](int part) {
+    for_kinds(
+        [&](const auto& kind, const Range& range) {
+          for (int g = range.begin; g < range.begin + range.count; ++g) {
+            const GroupFrame& f = kind.frames[g];
+            const auto& y = kind.impulses[g].y;
+            for (int i = 0; i < group_lanes; ++i) {
+              if (f.contact[i] < 0) continue;
+              double* rc = r.data() + problem.row_begin[f.contact[i]];
+              rc[0] = f.inverse_normal[i] * y[0][i];
+              if constexpr (requires { kind.groups[g].mu; }) {
+                const auto& k = kind.groups[g];
+                rc[0] = f.inverse_normal[i] * (y[0][i] - k.c1[i] * y[1][i] - k.c2[i] * y[2][i]);
+                const double t1 = f.inverse_tangent[i] * y[1][i],
+                             t2 = f.inverse_tangent[i] * y[2][i];
+                rc[1] = f.cosine[i] * t1 - f.sine[i] * t2;
+                rc[2] = f.sine[i] * t1 + f.cosine[i] * t2;
+              }
             }
           }
-        }
-      },
-      exact_);
+        },
+        exact_, parts_[part]);
+  });
 }
 
 /// Two parts without a common body, or one: of both first the contacts with friction, then those of
@@ -147,9 +155,12 @@ void WideSweep::sweep_parts(State<Number>& state, const Kernels& kernels, const 
     for (size_t k = 0; k < parts.size(); ++k) {
       const Range at = parts[k].*range;
       constexpr bool all = std::is_same_v<Number, double>;
-      runs[k] = {kind.groups.data() + at.begin, kind.impulses.data() + at.begin,
+      runs[k] = {kind.groups.data() + at.begin,
+                 kind.impulses.data() + at.begin,
                  kind.search.empty() ? nullptr : kind.search.data() + at.begin,
-                 all ? nullptr : kind.awake.data() + at.begin, all ? at.count : at.awake};
+                 all ? nullptr : kind.awake.data() + at.begin,
+                 all ? at.count : at.awake,
+                 kind.groups.size() * sizeof kind.groups[0] > far_bytes};
     }
     double squares[2] = {};
     loops.sweep(runs, step, state.bodies.data(), squares);

@@ -86,6 +86,26 @@ class WideSweep final : public ContactSweep {
     double change_square = 0.0;  ///< of the last sweep along a search
     double error_square = 0.0;   ///< of error()
     double impulse_square = 0.0, drift_square = 0.0;  ///< of the last look in single precision
+    bool is_usual = true;  ///< its contacts are of the kinds that there are groups of
+  };
+  template <typename Group>
+  struct Lanes {
+    std::vector<int> contact;  ///< group_lanes a group; -1: none
+  };
+  /// Which contacts of a part stand side by side, and the room in which that is found.
+  struct Grouping {
+    Kinds<Lanes, double> lanes;
+    std::vector<int> wall_of_group;  ///< the body that a wall's group is on
+    int contacts = 0, on_walls = 0;  ///< that something moves
+    ContactGroups groups;
+    std::vector<int> chosen, a, b, walls;
+
+    void begin() {
+      for_kinds([](auto& kind) { kind.contact.clear(); }, lanes);
+      wall_of_group.clear();
+      walls.clear();
+      contacts = 0;
+    }
   };
 
   /// Calls task(friction...), then the same with what `each` has for one row and for walls.
@@ -99,15 +119,12 @@ class WideSweep final : public ContactSweep {
   bool sort_bodies(const DynamicsForm& dynamics);
   bool may_fill_lanes(const DynamicsForm& dynamics);
   void place_bodies(const DynamicsForm& dynamics);
-  bool group_contacts(const FrictionProblem& problem);
-  bool group_part(const FrictionProblem& problem, const SweepPlan::Part& part, Part& made);
+  bool group_contacts(const DynamicsForm& dynamics);
+  bool group_part(const DynamicsForm& dynamics, int number);
+  bool make_records(const FrictionProblem& problem);
   template <typename Group>
-  void add_empty_groups(Kind<Group>& kind, int count);
-  template <typename Group>
-  Range add_groups(Kind<Group>& kind, int nowhere);
-  template <typename Group>
-  bool make_records(const FrictionProblem& problem, Kind<Group>& kind,
-                    const ExactLoops<Group>& loops);
+  bool make_group(const FrictionProblem& problem, const int* lanes, int nowhere, Group& group,
+                  GroupFrame& frame, const ExactLoops<Group>& loops) const;
   template <typename Group>
   bool fill_lane(const FrictionProblem& problem, Group& group, GroupFrame& frame, int lane) const;
   void free_bodies(const DynamicsForm& dynamics);
@@ -162,9 +179,8 @@ class WideSweep final : public ContactSweep {
   std::vector<int> contacts_of_body_;  ///< room for may_fill_lanes()
   std::vector<int> row_of_body_;       ///< slab by slab, so that threads share no line
   int rows_ = 0;
-  ContactGroups grouping_;
-  std::vector<int> chosen_, walls_, grain_a_, grain_b_;  ///< room for group_part()
-  int contacts_ = 0;                                     ///< that something moves
+  std::vector<Grouping> groupings_;  ///< of each part, and of more that there were
+  int contacts_ = 0;                 ///< that something moves
 
   State<double> exact_;
   std::vector<BodyRow<double>> free_;

@@ -186,7 +186,12 @@ TEST_CASE("groups are the first fit: no body twice in one, and every body's cont
   for (const int bodies : {3, 40, 400}) {
     const Graph graph(bodies, 1000, bodies);
     ContactGroups groups;
-    groups.make(graph.contacts, graph.a, graph.b, graph.bodies);
+    std::vector<int> a, b;
+    for (const int c : graph.contacts) {
+      a.push_back(graph.a[c]);
+      b.push_back(graph.b[c]);
+    }
+    groups.make(graph.contacts, a, b, graph.bodies);
     const auto expected = slowly(graph);
     REQUIRE(groups.count() == static_cast<int>(expected.size()));
     std::map<int, std::vector<int>> met;  // contacts of each body, as the groups have them
