@@ -11,6 +11,7 @@
 #include "experiments/compare/live_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/wall_cycles.hpp"
+#include "experiments/run/run.hpp"
 #include "experiments/step/step_record.hpp"
 #include "experiments/step/time_step.hpp"
 #include "platform/clock.hpp"
@@ -21,7 +22,6 @@
 #include "platform/text.hpp"
 #include "platform/worker_team.hpp"
 #include "problems/algebra/contact_error.hpp"
-#include "problems/scene/scene_file.hpp"
 #include "solvers/gauss_seidel/any_sweep.hpp"
 #include "solvers/solver_list.hpp"
 
@@ -376,7 +376,7 @@ Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPo
 DepositedBox deposited_box(const std::string& name, const std::vector<std::string>& overrides,
                            const std::filesystem::path& cache) {
   DepositedBox box;
-  box.scene = read_scene(find_scene(name), overrides);
+  box.scene = resolve_run(name, overrides).scene;
   if (!box.scene.grains) throw Error(name + ": has no grains: a bench needs a deposited packing");
   box.rain = make_rain(box.scene);
   const InterruptGuard guard;

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "experiments/compare/compare_case.hpp"
+#include "experiments/run/run.hpp"
 #include "platform/text.hpp"
-#include "problems/scene/scene_file.hpp"
 #include "problems/scene/toml_reader.hpp"
 
 namespace ballast {
@@ -82,7 +82,7 @@ std::string label_of(const std::string& text) {
 /// All combinations, the last axis changing fastest.
 void add_runs(const Entry& entry, size_t axis, CollectedRun run, std::vector<CollectedRun>& runs) {
   if (axis == entry.vary.size()) {
-    const Scene scene = resolve_scene(find_scene(run.scene), run.overrides).scene;
+    const Scene scene = resolve_run(run.scene, run.overrides).scene;
     run.bodies = scene.grains ? scene.grains->count : static_cast<int>(scene.bodies.size());
     for (long step = 1; step <= scene.step_count(); ++step) run.steps += run.capture.takes(step);
     runs.push_back(std::move(run));

@@ -16,7 +16,6 @@
 #include "platform/pack.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
-#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 namespace {
@@ -212,7 +211,7 @@ std::vector<double> distances(const Trajectory& trajectory, const Trajectory& re
 LiveComparison run_live(const LiveOptions& options,
                         const std::function<bool(const Trajectory&)>& said) {
   LiveComparison comparison;
-  comparison.scene = read_scene(find_scene(options.scene), options.overrides);
+  comparison.scene = resolve_run(options.scene, options.overrides).scene;
   comparison.velocity_scale = velocity_scale(comparison.scene);
   const Start start = make_start(options, comparison.scene);
   const InterruptGuard guard;  // only now: run() has one of its own

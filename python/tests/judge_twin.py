@@ -45,19 +45,29 @@ def onto_cone(r, mu):
     return np.where(inside[:, None], r, outside)
 
 
+def inverse_of(M):
+    """M^-1, body by body: no entry of M joins two."""
+    count, body = sparse.csgraph.connected_components(M)
+    members = np.split(np.argsort(body, kind="stable"), np.cumsum(np.bincount(body))[:-1])
+    blocks = [np.linalg.inv(M[rows][:, rows].toarray()) for rows in members]
+    order = np.concatenate(members)
+    back = sparse.csc_matrix((np.ones(len(order)), (order, np.arange(len(order)))), M.shape)
+    return back @ sparse.block_diag(blocks, format="csc") @ back.T
+
+
 def judge(path, r):
     """Measures of stacked impulses r, by the names of Ballast's judge."""
     M, H, f, w, mu = read(path)
-    inverse = sparse.linalg.splu(M.tocsc())
-    u = (H.T @ inverse.solve(f + H @ r) + w).reshape(-1, 3)
-    q = H.T @ inverse.solve(f) + w
+    inverse = inverse_of(M.tocsr())
+    u = (H.T @ (inverse @ (f + H @ r)) + w).reshape(-1, 3)
+    q = H.T @ (inverse @ f) + w
     r = r.reshape(-1, 3)
     bent = u.copy()  # De Saxce's u + mu |u_T| n
     bent[:, 0] += mu * np.linalg.norm(u[:, 1:], axis=1)
-    largest = np.empty(len(mu))  # eigenvalue of W's block
-    for c in range(len(mu)):
-        block = H[:, 3 * c:3 * c + 3].toarray()
-        largest[c] = np.linalg.eigvalsh(block.T @ inverse.solve(block))[-1]
+    pushed = inverse @ H
+    blocks = [[H[:, i::3].multiply(pushed[:, j::3]).sum(axis=0).A1 for j in range(3)]
+              for i in range(3)]
+    largest = np.linalg.eigvalsh(np.moveaxis(blocks, 2, 0))[:, -1]  # of W's block
     moves = largest > 0
     rho = np.divide(1, largest, out=np.zeros_like(largest), where=moves)
     natural = np.linalg.norm(r - onto_cone(r - rho[:, None] * bent, mu), axis=1) * largest
