@@ -58,6 +58,12 @@ bool is_plain(std::string_view text, std::string_view also) {
   });
 }
 
+std::string made_plain(std::string text, std::string_view also) {
+  for (char& c : text)
+    if (!is_plain(std::string_view(&c, 1), also)) c = '_';
+  return text;
+}
+
 size_t edit_distance(std::string_view a, std::string_view b) {
   // One row of the table of distances between prefixes of a and of b.
   // row[j] is the distance of the first i letters of a to the first j of b (Levenshtein).

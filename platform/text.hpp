@@ -51,6 +51,8 @@ std::vector<std::string> split(std::string_view text, char separator);
 
 /// Letters and digits of ASCII and `also` alone, at least one.
 bool is_plain(std::string_view text, std::string_view also);
+/// With _ in place of every other byte.
+std::string made_plain(std::string text, std::string_view also);
 
 /// The number that all of `text` is, without blanks; nothing when it is none.
 template <class Number>

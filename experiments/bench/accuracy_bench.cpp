@@ -47,10 +47,7 @@ const RowMeasure row_measures[] = {
 /// Adds to a panel a line through `points` (x, y) in the style of `curve`, and a mark on each.
 void add_marked_line(const std::vector<std::pair<double, double>>& points, Curve curve,
                      Panel& panel) {
-  for (const auto& [x, y] : points) {
-    curve.x.push_back(x);
-    curve.y.push_back(y);
-  }
+  for (const auto& [x, y] : points) curve.add(x, y);
   panel.curves.push_back(curve);
   curve.title = {};
   curve.mark = Mark::points;

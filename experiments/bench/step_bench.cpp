@@ -291,8 +291,7 @@ Figure step_figure(const std::vector<BenchStep>& steps, int windows) {
       std::vector<double> values;
       for (size_t k = begin; k < begin + length; ++k)
         values.push_back(factor * (steps[k].record.*column));
-      curve.x.push_back(steps[begin + length / 2].record.time);
-      curve.y.push_back(quantile(values, 0.5));
+      curve.add(steps[begin + length / 2].record.time, quantile(values, 0.5));
     }
     panel.curves.push_back(std::move(curve));
   };
@@ -353,10 +352,8 @@ Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPo
     Curve curve = backend_curve(panel.curves.size(), title);
     curve.dashed = threads != 1;
     for (const ScalingPoint& p : points)
-      if (const double value = p.value(name); p.threads == threads && std::isfinite(value)) {
-        curve.x.push_back(p.grains);
-        curve.y.push_back(value);
-      }
+      if (const double value = p.value(name); p.threads == threads && std::isfinite(value))
+        curve.add(p.grains, value);
     panel.curves.push_back(std::move(curve));
   };
   for (const int threads : options.threads)

@@ -40,10 +40,8 @@ void round_entries(DynamicsForm& dynamics) {
 /// The name of a made problem's file: "pile-c100-d0.3-R1-f0.3..0.3-a0.8-s1.hdf5". It begins with
 /// the family, as family_of_file() has it.
 std::string made_name(const std::string& family, const std::string& case_name) {
-  std::string name = family + case_name.substr(std::min(case_name.find('-'), case_name.size()));
-  for (char& c : name)
-    if (!is_plain(std::string(1, c), "-._=+")) c = '_';
-  return name + ".hdf5";
+  const std::string rest = case_name.substr(std::min(case_name.find('-'), case_name.size()));
+  return made_plain(family + rest, "-._=+") + ".hdf5";
 }
 
 /// One collection under way.

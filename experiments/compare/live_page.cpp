@@ -181,10 +181,7 @@ std::string origins_of(const LiveComparison& comparison) {
 
 /// "steps-pgs_0_0001.csv"
 std::string steps_file(const Trajectory& t) {
-  std::string name = "steps-";
-  for (const char c : t.label())
-    name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
-  return name + ".csv";
+  return made_plain("steps-" + t.label(), "-") + ".csv";
 }
 
 }  // namespace

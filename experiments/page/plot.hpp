@@ -38,6 +38,11 @@ struct Curve {
   std::vector<double> y_low = {};    ///< area: lower bound
   /// What the points come from: one name for each, or one for all, of the page's data "origins".
   std::vector<std::string> origins = {};
+
+  void add(double at, double value) {
+    x.push_back(at);
+    y.push_back(value);
+  }
 };
 
 /// A dashed line across the panel with a label at its end: a target, a reference.

@@ -19,10 +19,7 @@ constexpr double rms_arrow = 0.025;  // how long the rms velocity is drawn [m]
 /// Arrows as lines: shaft and two barbs, NaN between them. Lengths in the plot's units (axes of
 /// equal scale).
 void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
-  const auto add = [&](double a, double b) {
-    curve.x.push_back(a);
-    curve.y.push_back(b);
-  };
+  const auto add = [&](double a, double b) { curve.add(a, b); };
   const double length = std::hypot(dx, dz);
   if (!(length > 0.0)) return;
   // barbs at 2.6 rad (150 degrees) to the shaft
@@ -127,11 +124,9 @@ Panel panel_of(const Chains& chains, double width, const std::string& title, boo
     Curve& curve =
         curves[static_cast<size_t>(std::min(classes - 1.0, std::floor(segment.force / width)))];
     for (const Vec3& end : {segment.from, segment.to}) {
-      curve.x.push_back(end.x());
-      curve.y.push_back(end.z());
+      curve.add(end.x(), end.z());
     }
-    curve.x.push_back(not_known);
-    curve.y.push_back(not_known);
+    curve.add(not_known, not_known);
   }
   const Curve walls{.x = {chains.box.x_hi, chains.box.x_lo, chains.box.x_lo, chains.box.x_hi},
                     .y = {0.0, 0.0, chains.box.z_hi, chains.box.z_hi},

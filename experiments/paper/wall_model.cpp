@@ -55,15 +55,12 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
   for (size_t k = period.first; k < period.last; ++k) {
     time.push_back(run.data.steps[k].time - period.begin);
     x.push_back(1e3 * (run.data.steps[k].wall_x - period.x_before));
-    loop.x.push_back(1e3 * run.summary.wall.velocity[k]);
-    loop.y.push_back(unit.factor * run.summary.wall.force[k]);
+    loop.add(1e3 * run.summary.wall.velocity[k], unit.factor * run.summary.wall.force[k]);
   }
   for (const double at : model.x) model_x.push_back(1e3 * at);
   // every twentieth of the model's many steps draws the same line
-  for (size_t k = 0; k < model.v.size(); k += 20) {
-    model_loop.x.push_back(1e3 * model.v[k]);
-    model_loop.y.push_back(unit.factor * model.force[k]);
-  }
+  for (size_t k = 0; k < model.v.size(); k += 20)
+    model_loop.add(1e3 * model.v[k], unit.factor * model.force[k]);
   Curve motion = line_of(model.time, model_x, "model", Ink::black, 2.0);
   motion.dashed = true;
   return {.height = 760,

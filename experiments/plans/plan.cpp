@@ -144,12 +144,9 @@ Grid read_grid(TomlTable& table, const fs::path& file, const PlannedRun& base) {
 }
 
 /// A value as part of a run's name.
-std::string name_part(const std::string& value) {
-  std::string name;
-  for (const char c : value)
-    if (c != '"')
-      name += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' ? c : '_';
-  return name;
+std::string name_part(std::string value) {
+  std::erase(value, '"');
+  return made_plain(value, ".-");
 }
 
 /// The run at chosen[a] of each axis a. What `where` sets comes last: it overrides the rest.

@@ -45,8 +45,8 @@ Curve loop_curve(const RunData& data, const WallCycles& cycles, const std::vecto
   for (size_t k = first; k < last; ++k) {
     // the first sample after a phase is taken along: no gaps where the colour changes
     const bool is_in = is_drawn(k) || (k > first && is_drawn(k - 1));
-    curve.x.push_back(is_in ? 1e3 * data.steps[k].wall_x : not_known);
-    curve.y.push_back(is_in ? factor * force[k] : not_known);
+    curve.add(is_in ? 1e3 * data.steps[k].wall_x : not_known,
+              is_in ? factor * force[k] : not_known);
   }
   return curve;
 }
@@ -56,12 +56,9 @@ Curve fit_curve(const RunSummary& summary, double factor) {
   Curve curve{.title = "fits", .ink = Ink::black, .width = 1.3, .dashed = true};
   constexpr int parts = 32;
   const auto add = [&](double jam, double stroke, const auto& law) {
-    for (int k = 0; k <= parts; ++k) {
-      curve.x.push_back(1e3 * (jam + stroke * k / parts));
-      curve.y.push_back(factor * law.at(stroke * k / parts));
-    }
-    curve.x.push_back(not_known);
-    curve.y.push_back(not_known);
+    for (int k = 0; k <= parts; ++k)
+      curve.add(1e3 * (jam + stroke * k / parts), factor * law.at(stroke * k / parts));
+    curve.add(not_known, not_known);
   };
   for (size_t p = summary.wall.loop_first; p < summary.wall.loop_last; ++p) {
     const WallPeriod& period = summary.wall.periods[p];

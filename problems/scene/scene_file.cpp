@@ -169,9 +169,7 @@ void read_control_volume(TomlTable table, ControlVolumeSpec& s, const BoxSpec& b
 
 /// A file may have blanks and umlauts in its name, a scene may not.
 std::string name_of_file(const fs::path& file) {
-  std::string name = file.stem().string();
-  for (char& c : name)
-    if (!is_plain(std::string_view(&c, 1), "_-.")) c = '_';
+  std::string name = made_plain(file.stem().string(), "_-.");
   if (name.empty() || name[0] == '.') name.insert(0, 1, '_');
   return name;
 }

@@ -77,6 +77,7 @@ TEST_CASE("a text is cut at every separator and nowhere else") {
 TEST_CASE("a plain text is letters, digits and what else was said") {
   CHECK(is_plain("azAZ09", ""));
   CHECK(is_plain("a_b-c", "_-"));
+  CHECK(made_plain("a b-c\xc3\xa9.d", "-") == "a_b-c___d");
   for (const char* text : {"", "a_b", "ä", "a b", "@", "[", "`", "{", "/", ":"}) {
     CAPTURE(text);
     CHECK_FALSE(is_plain(text, "-"));
