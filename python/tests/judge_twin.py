@@ -106,4 +106,4 @@ if __name__ == "__main__":
             worst = difference
             print(f"{difference:.1e}  {path}", flush=True)
     print(f"{count} problems, largest relative difference {worst:.1e}")
-    sys.exit(worst > 1e-6)
+    sys.exit(bool(worst > 1e-6))

@@ -23,6 +23,12 @@ constexpr int elements_apart() {
   return page / sizeof(Element);
 }
 
+/// What a thread groups a part's contacts in.
+struct GroupingRoom {
+  ContactGroups groups;
+  std::vector<int> chosen, a, b, walls;
+};
+
 /// diag(m, m, m, 3 x 3), column-major.
 bool is_grain_mass(const double* mass) {
   if (!(mass[0] == mass[7] && mass[0] == mass[14])) return false;
@@ -122,7 +128,7 @@ bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
           range.begin = last;
           last += range.count;
           // between this part's groups and the next one's
-          if (plan_.slabs() > 1 && size_of(team_) > 1)
+          if (range.count > 0 && plan_.slabs() > 1 && size_of(team_) > 1)
             last += elements_apart<GroupImpulses<float, Group::rows>>();
         },
         exact_, part, end);
@@ -132,9 +138,9 @@ bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
   }
   for_kinds(
       [](auto& kind, int last) {
-        kind.groups.resize(last);
-        kind.frames.resize(last);
-        kind.impulses.resize(last);
+        resize_anew(kind.groups, last);
+        resize_anew(kind.frames, last);
+        resize_anew(kind.impulses, last);
       },
       exact_, end);
   return contacts_ - walls >= least_fill * group_lanes * groups;
@@ -156,37 +162,38 @@ bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
   const auto row = [&](int body) {
     return body < 0 || is_wall_[body] ? -1 : row_of_body_[body] - first;
   };
+  thread_local GroupingRoom room;
   const auto group = [&](int begin, int end, int wall, std::vector<int>& lanes) {
-    grouping.chosen.clear();
-    grouping.a.clear();
-    grouping.b.clear();
+    for (std::vector<int>* list : {&room.chosen, &room.a, &room.b}) list->clear();
     for (const int c : order.subspan(begin, end - begin)) {
       const int a = dynamics.body_a[c], b = dynamics.body_b[c];
       if ((a < 0 && b < 0) || (is_wall(a) ? a : is_wall(b) ? b : -1) != wall) continue;
-      grouping.chosen.push_back(c);
-      grouping.a.push_back(row(a));
-      grouping.b.push_back(row(b));
+      room.chosen.push_back(c);
+      room.a.push_back(row(a));
+      room.b.push_back(row(b));
     }
-    grouping.groups.make(grouping.chosen, grouping.a, grouping.b, rows);
-    for (int g = 0; g < grouping.groups.count(); ++g)
-      lanes.insert(lanes.end(), grouping.groups.lanes(g).begin(), grouping.groups.lanes(g).end());
-    grouping.contacts += static_cast<int>(grouping.chosen.size());
-    return grouping.groups.count();
+    room.groups.make(room.chosen, room.a, room.b, rows);
+    for (int g = 0; g < room.groups.count(); ++g)
+      lanes.insert(lanes.end(), room.groups.lanes(g).begin(), room.groups.lanes(g).end());
+    grouping.contacts += static_cast<int>(room.chosen.size());
+    return room.groups.count();
   };
-  grouping.begin();
+  for_kinds([](auto& kind) { kind.contact.clear(); }, grouping.lanes);
+  grouping.wall_of_group.clear();
+  grouping.contacts = 0;
+  room.walls.clear();
   // Walls with an unknown, in the order in which they come.
   for (int i = part.begin; i < part.end; ++i) {
     const int a = dynamics.body_a[order[i]], b = dynamics.body_b[order[i]];
     if (!is_wall(a) && !is_wall(b)) continue;
     if (i < part.friction_end || (is_wall(a) && is_wall(b))) return false;
     const int wall = is_wall(a) ? a : b;
-    if (std::ranges::find(grouping.walls, wall) == grouping.walls.end())
-      grouping.walls.push_back(wall);
+    if (std::ranges::find(room.walls, wall) == room.walls.end()) room.walls.push_back(wall);
   }
   made.friction.count = group(part.begin, part.friction_end, -1, grouping.lanes.friction.contact);
   made.one_row.count = group(part.friction_end, part.end, -1, grouping.lanes.one_row.contact);
   const int before = grouping.contacts;
-  for (const int wall : grouping.walls) {
+  for (const int wall : room.walls) {
     const int added = group(part.friction_end, part.end, wall, grouping.lanes.wall.contact);
     grouping.wall_of_group.insert(grouping.wall_of_group.end(), added, wall);
     made.wall.count += added;

@@ -17,6 +17,17 @@
 
 namespace ballast {
 
+/// Where `elements` have to grow, what was in them is lost: no pages of old and new ones are held
+/// at once.
+template <typename Element>
+void resize_anew(std::vector<Element>& elements, size_t size) {
+  if (size > elements.capacity()) {
+    elements.clear();
+    elements.reserve(size + size / 8);
+  }
+  elements.resize(size);
+}
+
 class WideSweep final : public ContactSweep {
  public:
   /// The plan outlives the sweep.
@@ -92,20 +103,11 @@ class WideSweep final : public ContactSweep {
   struct Lanes {
     std::vector<int> contact;  ///< group_lanes a group; -1: none
   };
-  /// Which contacts of a part stand side by side, and the room in which that is found.
+  /// Which contacts of a part stand side by side.
   struct Grouping {
     Kinds<Lanes, double> lanes;
     std::vector<int> wall_of_group;  ///< the body that a wall's group is on
     int contacts = 0, on_walls = 0;  ///< that something moves
-    ContactGroups groups;
-    std::vector<int> chosen, a, b, walls;
-
-    void begin() {
-      for_kinds([](auto& kind) { kind.contact.clear(); }, lanes);
-      wall_of_group.clear();
-      walls.clear();
-      contacts = 0;
-    }
   };
 
   /// Calls task(friction...), then the same with what `each` has for one row and for walls.
