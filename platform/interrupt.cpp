@@ -13,7 +13,8 @@ std::atomic<bool> interrupted{false};
 // The only kind that a signal handler may touch.
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-int guards = 0;  // that are alive
+int guards = 0;                             // that are alive
+void (*pipe_before)(int signal) = SIG_DFL;  // what SIGPIPE did before the first
 
 constexpr int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
@@ -32,14 +33,14 @@ InterruptGuard::InterruptGuard() {
   // A hang-up that was ignored before, as under nohup, stays ignored.
   for (const int signal : caught)
     if (std::signal(signal, on_signal) == SIG_IGN && signal == SIGHUP) std::signal(signal, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
+  pipe_before = std::signal(SIGPIPE, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
   if (--guards > 0) return;
   for (const int signal : caught)
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
-  std::signal(SIGPIPE, SIG_DFL);
+  std::signal(SIGPIPE, pipe_before);
 }
 
 bool InterruptGuard::requested() { return interrupted; }

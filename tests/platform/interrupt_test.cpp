@@ -80,6 +80,11 @@ TEST_CASE("a warning may come twice, nohup is respected, and who stops reading e
           }
           raise(SIGHUP);
         }) == 0);
+  CHECK(end_of([] {
+          signal(SIGPIPE, SIG_IGN);
+          { const InterruptGuard guard; }
+          raise(SIGPIPE);
+        }) == 0);
 }
 
 TEST_CASE("with closed standard streams, no file gets their number") {
