@@ -149,7 +149,10 @@ ExitCode carry_out(const Command& command) {
 /// The first word that is no command or option there, and what was probably meant; where all are
 /// known, what the parser found. Then whose --help says more.
 std::string complaint(const CLI::App& program, int argc, const char* const* argv,
-                      const std::string& found) {
+                      std::string found) {
+  // that it is a number has been checked
+  if (const std::string cli = "Could not convert: "; found.starts_with(cli))
+    found = found.substr(cli.size()) + " is not a whole number";
   const CLI::App* at = &program;
   std::string path = program.get_name(), unknown;
   for (int k = 1; k < argc && unknown.empty(); ++k) {

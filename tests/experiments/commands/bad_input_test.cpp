@@ -44,6 +44,7 @@ TEST_CASE("a wrong command line is exit code 2") {
       {{"run", scene, "--max-seconds", "nan"}, "--max-seconds"},
       {{"run", scene, "--max-seconds", "soon"}, "soon"},
       {{"solve"}, "files"},
+      {{"bench", "step", "incline", "--steps", "1.5"}, "--steps = 1.5 is not a whole number"},
       {{"solve", "p.hdf5", "--solver", "oracle"}, "oracle"},
       {{"solve", "p.hdf5", "--tolerance", "-1"}, "--tolerance"},
       {{"solve", "p.hdf5", "--tolerance", "inf"}, "--tolerance"},
