@@ -60,7 +60,7 @@ begin() {
         --output "$2/run" --packing-cache "$2/packings" ;;
     plan) exec "$ballast" plan "$folder/plan.toml" --jobs 2 --output "$2" ;;
     compare) exec "$ballast" compare known:bodies=20,contacts=40,count=4 pile:contacts=16 \
-        --solvers pgs,nncg,prox_newton,interior_point --tolerances 1e-4,1e-8 \
+        --solvers pgs,nncg,prox_newton,interior_point --tolerances 1e-4,1e-8 --memory 0 \
         --output "$2" ;;
     paper) exec "$ballast" paper fig3 --jobs 1 --only 'motion*seed=1' --set solver.max_iterations=5 --scene vibrated_box_small \
         "${small[@]}" --results "$2" ;;
