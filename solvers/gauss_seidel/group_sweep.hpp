@@ -293,17 +293,18 @@ BALLAST_INLINE void fetch(const Element& element) {
 }
 
 /// The i-th group of each of the first `Runs` runs, K vectors of each in step.
-template <typename V, int K, int Runs, bool Search, typename Run>
+template <typename V, int K, int Runs, bool Search, bool Far, typename Run>
 BALLAST_INLINE void sweep_groups(const Run* runs, int i, SearchStep step, LaneSums<V>* sums,
                                  void* bodies) {
   int g[Runs];
   for (int run = 0; run < Runs; ++run) {
     g[run] = runs[run].group(i);
-    if (!runs[run].is_far || i + 1 >= runs[run].count) continue;
-    const int next = runs[run].group(i + 1);
-    fetch(runs[run].groups[next]);
-    fetch(runs[run].impulses[next]);
-    if constexpr (Search) fetch(runs[run].search[next]);
+    if constexpr (Far) {
+      const int next = runs[run].group(std::min(i + 1, runs[run].count - 1));
+      fetch(runs[run].groups[next]);
+      fetch(runs[run].impulses[next]);
+      if constexpr (Search) fetch(runs[run].search[next]);
+    }
   }
 #pragma GCC unroll 4
   for (int lane = 0; lane < group_lanes; lane += K * V::width) {
@@ -323,15 +324,15 @@ BALLAST_INLINE void sweep_groups(const Run* runs, int i, SearchStep step, LaneSu
   }
 }
 
-template <typename V, int K, bool Search, typename Run>
+template <typename V, int K, bool Search, bool Far, typename Run>
 BALLAST_INLINE void sweep_friction(const Run* runs, SearchStep step, void* bodies,
                                    double* squares) {
   LaneSums<V> sums[2];
   const int both = K * V::width == group_lanes ? std::min(runs[0].count, runs[1].count) : 0;
-  for (int i = 0; i < both; ++i) sweep_groups<V, K, 2, Search>(runs, i, step, sums, bodies);
+  for (int i = 0; i < both; ++i) sweep_groups<V, K, 2, Search, Far>(runs, i, step, sums, bodies);
   for (int run = 0; run < 2; ++run) {
     for (int i = both; i < runs[run].count; ++i)
-      sweep_groups<V, K, 1, Search>(runs + run, i, step, sums + run, bodies);
+      sweep_groups<V, K, 1, Search, Far>(runs + run, i, step, sums + run, bodies);
     if constexpr (Search) squares[run] = sums[run].total();
   }
 }
@@ -392,7 +393,8 @@ template <typename V, int K, bool Search, typename Group>
 BALLAST_INLINE void sweep_runs(const GroupRun<Group>* runs, SearchStep step,
                                BodyRow<typename V::Number>* bodies, double* squares) {
   if constexpr (Group::rows == 3)
-    return sweep_friction<V, K, Search>(runs, step, bodies, squares);
+    runs[0].is_far ? sweep_friction<V, K, Search, true>(runs, step, bodies, squares)
+                   : sweep_friction<V, K, Search, false>(runs, step, bodies, squares);
   else
     for (int run = 0; run < 2; ++run) {
       const double square = sweep_run<V, Search>(runs[run], step, bodies);
