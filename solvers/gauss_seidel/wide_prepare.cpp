@@ -138,9 +138,9 @@ bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
   }
   for_kinds(
       [](auto& kind, int last) {
-        resize_anew(kind.groups, last);
-        resize_anew(kind.frames, last);
-        resize_anew(kind.impulses, last);
+        kind.groups.resize(last);
+        kind.frames.resize(last);
+        kind.impulses.resize(last);
       },
       exact_, end);
   return contacts_ - walls >= least_fill * group_lanes * groups;

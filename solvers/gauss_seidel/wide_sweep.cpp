@@ -267,10 +267,10 @@ void WideSweep::enter_single() {
   in_single_ = true;
   for_kinds(
       [](const auto& exact, auto& single) {
-        resize_anew(single.impulses, exact.groups.size());
-        resize_anew(single.groups, exact.groups.size());
-        resize_anew(single.seen, exact.groups.size());
-        resize_anew(single.awake, exact.groups.size());
+        single.impulses.resize(exact.groups.size());
+        single.groups.resize(exact.groups.size());
+        single.seen.resize(exact.groups.size());
+        single.awake.resize(exact.groups.size());
       },
       exact_, single_);
   for_parts(exact_, [this](const Part& part) {

@@ -17,17 +17,6 @@
 
 namespace ballast {
 
-/// Where `elements` have to grow, what was in them is lost: no pages of old and new ones are held
-/// at once.
-template <typename Element>
-void resize_anew(std::vector<Element>& elements, size_t size) {
-  if (size > elements.capacity()) {
-    elements.clear();
-    elements.reserve(size + size / 8);
-  }
-  elements.resize(size);
-}
-
 class WideSweep final : public ContactSweep {
  public:
   /// The plan outlives the sweep.
