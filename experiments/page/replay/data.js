@@ -174,6 +174,7 @@ class Data {
   // Fills in the state at a time: positions by Hermite's cubic through places and velocities,
   // rotations between the two, the shorter way round.
   moveTo(time, valueOf) {
+    this.now = time;
     const { frame, next, span, u } = this.frameAt(time), state = this.state;
     const u2 = u * u, u3 = u2 * u;
     const h00 = 2 * u3 - 3 * u2 + 1, h10 = (u3 - 2 * u2 + u) * span;
@@ -223,7 +224,7 @@ class Data {
 
   // The box that all is in: walls where there are some, else the bodies and some room.
   measureBox() {
-    const { low, span } = this.head, most = Math.max(0.001, ...this.reach);
+    const { low, span } = this.head, most = this.reach.reduce((a, b) => Math.max(a, b), 0.001);
     this.low = low.map((v) => v - 1.02 * most);
     this.high = low.map((v, k) => v + span[k] + 1.02 * most);
     const free = [...this.low, ...this.high];

@@ -117,7 +117,7 @@ class Replay {
     part("play").textContent = on ? "\u275a\u275a" : "\u25b6";
     part("play").setAttribute("aria-label", on ? "Pause" : "Play");
     if (on && this.time >= this.data.end) this.time = this.data.begin;
-    this.last = 0;
+    this.last = this.drawnAt = 0;
     this.touched();
   }
   // Something has changed. The address says so when nothing changes any more.
@@ -210,23 +210,33 @@ class Replay {
     label.style.top = clamp(top0, 4, clientHeight - high - 4) + "px";
   }
 
-  // Every frame of the browser.
+  // Every frame of the browser. A picture is begun when the last one is finished: where there is no
+  // graphics card it takes longer than a frame.
   loop(now) {
-    if (this.playing && this.last) {
-      const passed = now - this.last;
-      // where there is no graphics card, fewer pixels keep the motion smooth
-      this.pace = this.pace ? 0.85 * this.pace + 0.15 * passed : 60;
-      if (this.pace > 75 && this.quality > 0.45)
-        [this.quality, this.pace] = [this.quality - 0.2, 0];
-      const time = this.time + Math.min(passed, 120) / 1000 * this.rate;
+    const passed = this.last ? Math.min(now - this.last, 120) : 0;
+    this.last = now;
+    if (this.playing) {
+      const time = this.time + passed / 1000 * this.rate;
       this.time = time > this.data.end ? this.data.begin : time;
     }
-    this.last = now;
     const wasMoving = this.moving;
     this.moving = this.playing || now < this.movesUntil;
-    const isDue = this.playing || this.isStale || (wasMoving && !this.moving);
-    if (isDue && this.isSeen) this.draw();
+    if (wasMoving && !this.moving && this.quality < 1) this.isStale = true;
+    if ((this.playing || this.isStale) && this.isSeen &&
+        !this.stages.some((stage) => stage.isBusy())) {
+      this.keepPace(now);
+      this.draw();
+    }
     requestAnimationFrame((next) => this.loop(next));
+  }
+  // Fewer pixels where pictures come slowly.
+  keepPace(now) {
+    if (!this.playing) return;
+    const since = this.drawnAt ? Math.min(now - this.drawnAt, 500) : 60;
+    this.drawnAt = now;
+    this.pace = this.pace ? 0.85 * this.pace + 0.15 * since : 60;
+    if (this.pace > 75 && this.quality > 0.45)
+      [this.quality, this.pace] = [this.quality - 0.2, 0];
   }
 
   // For tests: the picture as bytes, red green blue alpha, the lowest row first.

@@ -231,10 +231,14 @@ class Stage {
     this.fill("states", 1024, state.length / 4096, state);
     this.fill("ramp", 256, 1, ramp);
     this.setRods(look.rods);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadowTarget);
-    gl.viewport(0, 0, shadowSize, shadowSize);
-    // glass throws no shadow
-    this.drawNumbers(this.shadowMatrix, solid ? look : { ...look, grains: "hidden" });
+    // The shadow stays while nothing but the camera moves; glass throws none.
+    const cast = solid ? [this.data.now, ...look.cut || []].join() : "none";
+    if (cast !== this.cast) {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadowTarget);
+      gl.viewport(0, 0, shadowSize, shadowSize);
+      this.drawNumbers(this.shadowMatrix, solid ? look : { ...look, grains: "hidden" });
+      this.cast = cast;
+    }
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(...look.paper.map(toSrgb), 1);
@@ -245,5 +249,16 @@ class Stage {
     this.drawRods(look);
     if (!solid) this.drawGrains(look);
     this.drawPlanes(look, false);
+    this.end = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+  }
+
+  // Whether the last picture is still being drawn.
+  isBusy() {
+    const { gl } = this;
+    if (this.end && gl.getSyncParameter(this.end, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
+    gl.deleteSync(this.end ?? null);
+    this.end = null;
+    return false;
   }
 }
