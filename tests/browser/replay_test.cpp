@@ -243,8 +243,9 @@ TEST_CASE("the shadow is drawn anew where bodies, the cut or glass have changed,
   CHECK(drawn_after("ballastReplay.set({ cut: 'y' })") == 1);
   CHECK(drawn_after("ballastReplay.set({ cut: '', grains: 'ghost' })") == 1);
   // back where it was, the same picture
-  browser.js("ballastReplay.set({ grains: 'solid' }); ballastReplay.setTime(ballastReplay.data."
-             "begin); ballastReplay.camera.home()");
+  browser.js(
+      "ballastReplay.set({ grains: 'solid' }); ballastReplay.setTime(ballastReplay.data."
+      "begin); ballastReplay.camera.home()");
   CHECK(picture(browser) == first);
 }
 
