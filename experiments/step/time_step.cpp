@@ -105,13 +105,15 @@ void TimeStepper::free_motion(const MotionState& state, double mid_time) {
   }
 }
 
-void TimeStepper::detect(const MotionState& mid, StepMemory& memory) {
+void TimeStepper::detect(const MotionState& mid) {
   const double g = system_.gravity.norm();
   // Two bodies further apart than the sum of their reaches cannot touch within the step.
-  for (size_t b = 0; b < system_.bodies.size(); ++b)
-    reach_[b] = reach_of(system_.bodies[b], mid, b, h_, g);
+  for_bodies([&](size_t b) { reach_[b] = reach_of(system_.bodies[b], mid, b, h_, g); });
   detector_.detect(mid.pose, reach_, contacts_);
-  // A contact that was there in the last step begins with the impulse that it had then.
+}
+
+/// A contact that was there in the last step begins with the impulse that it had then.
+void TimeStepper::carry(const StepMemory& memory) {
   if (spec_.warm_start)
     carry_impulses(memory.contacts, memory.impulses, contacts_, carried_);
   else
@@ -208,14 +210,14 @@ void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record)
 /// The second half of the motion, with the new velocities.
 void TimeStepper::finish_motion(double end_time, MotionState& state) {
   assembler_.unpack(runner_.body_velocity(), state);
-  for (size_t b = 0; b < state.pose.size(); ++b) {
+  for_bodies([&](size_t b) {
     if (system_.bodies[b].imposed) {
       follow(system_.bodies[b], end_time, state.pose[b], state.velocity[b], state.spin[b]);
-      continue;
+      return;
     }
     state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h_);
     state.pose[b].position = system_.period.wrapped(state.pose[b].position);
-  }
+  });
   ++state.step;
   state.time = end_time;
 }
@@ -229,17 +231,18 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   // A step of Moreau and Jean, of which this is the first half:
   //
   //     q -- h/2 v --> q_m: contacts are found, impulses r and v' follow -- h/2 v' --> q'
-  for (size_t b = 0; b < state.pose.size(); ++b)
+  detect_pace_.begin(team_.get());
+  for_bodies([&](size_t b) {
     if (const auto& imposed = system_.bodies[b].imposed)
       state.pose[b] = imposed->motion.pose_at(mid_time, imposed->start);
     else
       state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
+  });
   record.seconds_other = clock.restart();
-  detect_pace_.begin(team_.get());
-  detect(state, memory);
+  detect(state);
   record.seconds_detect = clock.restart();
   detect_pace_.took(record.seconds_detect);
-  free_motion(state, mid_time);
+  run_parts(team_.get(), 2, [&](int part) { part ? carry(memory) : free_motion(state, mid_time); });
   record.seconds_other += clock.restart();
   solve_pace_.begin(team_.get());  // assembled by those who solve, whose cores then have it
   assembler_.assemble({state, contacts_, problem_.dynamics.v_free, h, end_time}, problem_);
@@ -251,15 +254,21 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   solve_pace_.took(record.seconds_assemble + record.seconds_solve + record.seconds_judge,
                    record.iterations + around);
 
-  // the books are closed before the poses move on
-  account_energy(mid_time, record);
-  record.energy_gained = gained_energy(end_time);
-  account_contacts(memory, record);
   finish_motion(end_time, state);
-  record.seconds_other += clock.restart();
-  record.work_correction =
-      correction_.apply(assembler_, problem_, contacts_, runner_.body_velocity(), h, state);
-  record.seconds_correct = clock.restart();
+  // The books are of the velocities, the correction is of the poses.
+  run_parts(team_.get(), 2, [&](int part) {
+    if (part) {
+      account_energy(mid_time, record);
+      record.energy_gained = gained_energy(end_time);
+      account_contacts(memory, record);
+      return;
+    }
+    Stopwatch own;
+    record.work_correction =
+        correction_.apply(assembler_, problem_, contacts_, runner_.body_velocity(), h, state);
+    record.seconds_correct = own.seconds();
+  });
+  record.seconds_other += std::max(0.0, clock.restart() - record.seconds_correct);
 
   if (driven_wall_ >= 0) {
     record.wall_x = outward_displacement(system_, state, driven_wall_);

@@ -10,6 +10,7 @@
 // exactly, to first order in the rotation. The mean velocity (v_k + v_{k+1})/2 balances work and
 // energy exactly: what is left is recorded.
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,8 +53,19 @@ class TimeStepper {
   WorkerTeam* team() const { return team_.get(); }
 
  private:
+  /// Calls task(body) for all, shared among the team.
+  template <typename Task>
+  void for_bodies(const Task& task) {
+    constexpr size_t together = 256;
+    const size_t count = system_.bodies.size();
+    run_parts(team_.get(), static_cast<int>((count + together - 1) / together), [&](int part) {
+      const size_t begin = part * together, end = std::min(count, begin + together);
+      for (size_t b = begin; b < end; ++b) task(b);
+    });
+  }
   void free_motion(const MotionState& state, double mid_time);
-  void detect(const MotionState& mid, StepMemory& memory);
+  void detect(const MotionState& mid);
+  void carry(const StepMemory& memory);
   void solve(StepMemory& memory, StepRecord& record);
   void account_energy(double mid_time, StepRecord& record);
   double gained_energy(double end_time);
