@@ -174,7 +174,7 @@ class Data {
   // Fills in the state at a time: positions by Hermite's cubic through places and velocities,
   // rotations between the two, the shorter way round.
   moveTo(time, valueOf) {
-    this.now = time;
+    this.now = time;  // of the state
     const { frame, next, span, u } = this.frameAt(time), state = this.state;
     const u2 = u * u, u3 = u2 * u;
     const h00 = 2 * u3 - 3 * u2 + 1, h10 = (u3 - 2 * u2 + u) * span;

@@ -16,6 +16,7 @@ class Stage {
       { antialias: true, alpha: false, powerPreference: "high-performance" });
     if (!gl) throw new Error("this browser gives no WebGL 2");
     this.programs = new Map();
+    this.end = null;  // of the last picture's commands
     this.upload();
   }
 
@@ -249,16 +250,14 @@ class Stage {
     this.drawRods(look);
     if (!solid) this.drawGrains(look);
     this.drawPlanes(look, false);
+    gl.deleteSync(this.end);
     this.end = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
   }
 
   // Whether the last picture is still being drawn.
   isBusy() {
-    const { gl } = this;
-    if (this.end && gl.getSyncParameter(this.end, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
-    gl.deleteSync(this.end ?? null);
-    this.end = null;
-    return false;
+    const { gl, end } = this;
+    return end !== null && gl.getSyncParameter(end, gl.SYNC_STATUS) !== gl.SIGNALED;
   }
 }
