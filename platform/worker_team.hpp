@@ -2,6 +2,7 @@
 // A few threads that wait close by: for loops of some ten microseconds, thousands of times a
 // second.
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -114,6 +115,16 @@ template <typename Task>
 void run_parts(WorkerTeam* team, int parts, const Task& task) {
   if (team) return team->run(parts, task);
   for (int part = 0; part < parts; ++part) task(part);
+}
+
+/// task(begin, end) for ranges of `together` numbers, the last one shorter, that cover [0, count).
+/// They are the same whoever works.
+template <typename Task>
+void run_ranges(WorkerTeam* team, int count, int together, const Task& task) {
+  run_parts(team, (count + together - 1) / together, [&](int part) {
+    const int begin = part * together;
+    task(begin, begin + std::min(together, count - begin));
+  });
 }
 
 }  // namespace ballast

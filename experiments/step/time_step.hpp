@@ -56,11 +56,9 @@ class TimeStepper {
   /// Calls task(body) for all, shared among the team.
   template <typename Task>
   void for_bodies(const Task& task) {
-    constexpr size_t together = 256;
-    const size_t count = system_.bodies.size();
-    run_parts(team_.get(), static_cast<int>((count + together - 1) / together), [&](int part) {
-      const size_t begin = part * together, end = std::min(count, begin + together);
-      for (size_t b = begin; b < end; ++b) task(b);
+    const int count = static_cast<int>(system_.bodies.size());
+    run_ranges(team_.get(), count, /*together=*/256, [&](int begin, int end) {
+      for (int b = begin; b < end; ++b) task(static_cast<size_t>(b));
     });
   }
   void free_motion(const MotionState& state, double mid_time);

@@ -372,9 +372,8 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   // Cut in the same places whoever works.
   shares_.resize((contacts + JudgeBlock::size - 1) / JudgeBlock::size);
   // Every share: for the dynamics form its rows of u and q and its W_cc, then its measures.
-  run_parts(team_, static_cast<int>(shares_.size()), [&](int part) {
-    const int begin = part * JudgeBlock::size, end = std::min(begin + JudgeBlock::size, contacts);
-    shares_[part] = judge_contacts(problem, r, begin, end);
+  run_ranges(team_, contacts, JudgeBlock::size, [&](int begin, int end) {
+    shares_[begin / JudgeBlock::size] = judge_contacts(problem, r, begin, end);
   });
   if (!r.allFinite() || !u_.allFinite()) return infinite_error();
 

@@ -165,14 +165,11 @@ void ProblemAssembler::write_masses(DynamicsForm& dynamics) const {
 /// to any thread.
 void ProblemAssembler::write_rows(const StepInput& step, FrictionProblem& problem) {
   DynamicsForm& dynamics = problem.dynamics;
-  const int count = problem.contact_count();
-  constexpr int contacts_of_part = 128;
-  run_parts(team_, (count + contacts_of_part - 1) / contacts_of_part, [&](int part) {
-    for (int k = part * contacts_of_part; k < std::min(count, (part + 1) * contacts_of_part); ++k) {
+  run_ranges(team_, problem.contact_count(), /*together=*/128, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
       const ContactPoint& contact = step.contacts[detected_[k]];
       // The points of a pair have one normal.
-      const bool is_same =
-          k % contacts_of_part > 0 && contact.normal == step.contacts[detected_[k - 1]].normal;
+      const bool is_same = k > begin && contact.normal == step.contacts[detected_[k - 1]].normal;
       first_tangents_[k] = is_same ? first_tangents_[k - 1] : first_tangent(contact.normal);
       const Mat3 frame = frame_of(contact.normal, first_tangents_[k]);
       double* block = dynamics.h.data() + dynamics.h_begin[k];

@@ -134,10 +134,8 @@ class WideSweep final : public ContactSweep {
   void for_pairs(std::span<Part> parts, const Task& task) {
     const int count = static_cast<int>(parts.size()),
               together = count >= 2 * size_of(team_) ? 2 : 1;
-    run_parts(team_, (count + together - 1) / together, [&](int k) {
-      const int begin = k * together;
-      task(parts.subspan(begin, std::min(together, count - begin)));
-    });
+    run_ranges(team_, count, together,
+               [&](int begin, int end) { task(parts.subspan(begin, end - begin)); });
   }
   template <typename Number>
   void fetch_shared(const State<Number>& state, const Part& interface) const;

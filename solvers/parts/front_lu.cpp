@@ -191,10 +191,7 @@ bool FrontLu::eliminate(const Front& front, double* boundary, bool shares) {
   // Columns that are shared out come in pieces, however many share them.
   const auto by_columns = [&](int columns, const auto& task) {
     if (!shares) return task(0, columns);
-    run_parts(team_, (columns + most_columns - 1) / most_columns, [&](int piece) {
-      const int first = piece * most_columns;
-      task(first, std::min(most_columns, columns - first));
-    });
+    run_ranges(team_, columns, most_columns, task);
   };
   const int most = shares ? strip : own;
   for (int j = 0; j < own; j += most) {
@@ -202,7 +199,8 @@ bool FrontLu::eliminate(const Front& front, double* boundary, bool shares) {
     double* diagonal = a + static_cast<std::int64_t>(j) * rows + j;
     factor_columns(diagonal, rows, rows - j, width);
     double* beside = diagonal + static_cast<std::int64_t>(width) * rows;
-    by_columns(right, [&](int first, int count) {
+    by_columns(right, [&](int first, int end) {
+      const int count = end - first;
       double* at = beside + static_cast<std::int64_t>(first) * rows;
       solve_unit_lower(width, count, diagonal, rows, at, rows);
       subtract_product(below, count, width, diagonal + width, rows, at, rows, at + width, rows);
@@ -215,7 +213,8 @@ bool FrontLu::eliminate(const Front& front, double* boundary, bool shares) {
       return false;
   }
   if (outside == 0) return true;
-  by_columns(outside, [&](int first, int count) {
+  by_columns(outside, [&](int first, int end) {
+    const int count = end - first;
     double* at = rest + static_cast<std::int64_t>(first) * own;
     solve_unit_lower(own, count, a, rows, at, own);
     subtract_product(outside, count, own, a + own, rows, at, own,

@@ -272,6 +272,40 @@ TEST_CASE("a body whose number needs more than 16 bits is seen where it is") {
                            "r.camera.matrix(s.aspect), r.data.centreOf(%d)); return s.pick("
                            "r.look(0), ...at); })()",
                            count - 1)) == count - 1);
+  browser.wait_for("ballastReplay.isDraft === false");  // balls at first, then all corners
+}
+
+TEST_CASE("where whole pictures come slowly, grains are balls while something moves") {
+  if (Browser::is_missing()) return;
+  Browser browser(900, 700);
+  browser.open(driven_box().page(), "play=0&colour=none", is_ready);
+  const Json whole = picture(browser);
+  // In pixels: what the paper does not show, and where whole and draft differ.
+  const Json draft = browser.js(R"((() => {
+    const r = ballastReplay, { gl, canvas: { width, height } } = r.stages[0];
+    const seen = (moving) => {
+      const bytes = new Uint8Array(4 * width * height);
+      Object.assign(r, { wholeTook: 1000, moving });
+      r.draw();
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+      gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+      return bytes;
+    };
+    const count = (test) => Array.from({ length: width * height }, (_, k) => 4 * k).filter(test);
+    const balls = seen(true), isDraft = r.isDraft, grains = seen(false);
+    const isDark = (bytes) => (k) => bytes[k] + bytes[k + 1] + bytes[k + 2] < 600;
+    return { isDraft, stays: r.isDraft, balls: count(isDark(balls)).length,
+      grains: count(isDark(grains)).length,
+      same: count((k) => isDark(balls)(k) && isDark(grains)(k)).length };
+  })())");
+  INFO(draft.dump());
+  CHECK(draft["isDraft"] == true);
+  CHECK(draft["stays"] == false);
+  const double grains = draft["grains"], balls = draft["balls"], same = draft["same"];
+  CHECK(grains > 10000.0);
+  CHECK(std::abs(balls / grains - 1.0) < 0.25);
+  CHECK(same > 0.7 * grains);
+  CHECK(picture(browser) == whole);
 }
 
 TEST_CASE("narrow, dark, and without 3D") {

@@ -33,6 +33,8 @@ class Camera {
     return add(this.target, times([flat * Math.cos(yaw), flat * Math.sin(yaw), Math.sin(pitch)],
       this.distance));
   }
+  // Right, up, back.
+  get axes() { return axesOf(this.eye, this.target); }
   turn(dx, dy) {
     this.yaw -= dx;
     this.pitch = clamp(this.pitch + dy, -89.9, 89.9);
@@ -42,7 +44,7 @@ class Camera {
   }
   // By shares of the picture's height.
   pan(dx, dy) {
-    const [right, up] = axesOf(this.eye, this.target);
+    const [right, up] = this.axes;
     const size = 2 * this.distance * Math.tan(viewAngle / 2);
     this.target = add(this.target, add(times(right, -dx * size), times(up, dy * size)));
   }

@@ -4,15 +4,20 @@
 
 class Mesh {
   constructor(data) {
-    const fans = data.shapes.map(({ vertices, faces }) => Mesh.fanOf(vertices, faces));
-    const shapeOf = data.head.shape_of;
-    this.corners = 3 * shapeOf.reduce((sum, shape) => sum + fans[shape].length, 0);
-    this.bytes = new ArrayBuffer(12 * this.corners);
-    const shorts = new Int16Array(this.bytes), words = new Uint16Array(this.bytes);
-    const small = new Int8Array(this.bytes);
+    this.data = data;
+    this.fans = data.shapes.map(({ vertices, faces }) => Mesh.fanOf(vertices, faces));
+    this.corners = 3 * data.head.shape_of.reduce((sum, s) => sum + this.fans[s].length, 0);
+  }
+
+  // Made when it is first asked for.
+  get bytes() { return this.made ??= this.make(); }
+  make() {
+    const { data: { shapes, head }, fans } = this, bytes = new ArrayBuffer(12 * this.corners);
+    const shorts = new Int16Array(bytes), words = new Uint16Array(bytes);
+    const small = new Int8Array(bytes);
     let at = 0;
-    shapeOf.forEach((shape, grain) => {
-      const { vertices } = data.shapes[shape];
+    head.shape_of.forEach((shape, grain) => {
+      const { vertices } = shapes[shape];
       for (const { loop, hidden, normal } of fans[shape])
         for (const v of loop) {
           for (let k = 0; k < 3; ++k) {
@@ -24,6 +29,7 @@ class Mesh {
           ++at;
         }
     });
+    return bytes;
   }
 
   // The faces of a shape as fans of triangles.

@@ -8,7 +8,7 @@ class Replay {
     this.marks = new Marks(data);
     this.time = data.begin;
     this.rate = 0.2;
-    this.playing = false;
+    this.playing = this.moving = false;
     this.options = { colour: "speed", grains: "solid", chains: false, points: false, threshold: 1,
       cut: "", cutAt: 0.5, picked: -1 };
     this.quality = 1;
@@ -168,13 +168,22 @@ class Replay {
   // All that a stage draws at this moment.
   look(picture) {
     const look = { camera: this.camera, grains: this.options.grains, picked: this.options.picked,
-      cut: this.cutPlane(), paper: this.colours.paper.linear };
+      cut: this.cutPlane(), paper: this.colours.paper.linear, balls: this.isDraft };
     look.rods = this.marks.build(this.time, look, this.options, this.colours, this.errors,
       picture);
     return look;
   }
 
+  // Balls in place of grains: in the first picture of many corners, and while something moves where
+  // a whole picture takes long.
+  chooseDraft() {
+    const isFirst = this.isDraft === undefined;
+    this.isDraft = this.wholeTook ? this.moving && this.wholeTook > 300 :
+      isFirst && this.mesh.corners > 1e6;
+  }
+
   draw() {
+    this.chooseDraft();
     const ramp = this.shades.apply(this.options.colour, this.time);
     this.stages.forEach((stage, picture) => {
       stage.resize(this.moving ? this.quality : 1);
@@ -185,7 +194,8 @@ class Replay {
     drawFacts(this.data, this.options.picked, this.time);
     this.placeLoad();
     if (this.data.head.plots.length) this.plots.draw(this.time);
-    this.isStale = false;
+    this.isStale = this.isDraft && !this.moving;
+    this.wholeBegan = this.isDraft ? 0 : performance.now();
   }
 
   // The words beside the load's arrow.
@@ -221,13 +231,16 @@ class Replay {
     }
     const wasMoving = this.moving;
     this.moving = this.playing || now < this.movesUntil;
-    if (wasMoving && !this.moving && this.quality < 1) this.isStale = true;
-    if ((this.playing || this.isStale) && this.isSeen &&
-        !this.stages.some((stage) => stage.isBusy())) {
-      this.keepPace(now);
-      this.draw();
-    }
+    if (wasMoving && !this.moving && (this.quality < 1 || this.isDraft)) this.isStale = true;
+    if (!this.stages.some((stage) => stage.isBusy())) this.drawNext(now);
     requestAnimationFrame((next) => this.loop(next));
+  }
+  // When the last picture is finished.
+  drawNext(now) {
+    if (this.wholeBegan) [this.wholeTook, this.wholeBegan] = [now - this.wholeBegan, 0];
+    if (!(this.playing || this.isStale) || !this.isSeen) return;
+    this.keepPace(now);
+    this.draw();
   }
   // Fewer pixels where pictures come slowly.
   keepPace(now) {

@@ -32,23 +32,38 @@ void pose(uint g, out vec4 p, out vec4 q) {
 }
 `;
 
+// A corner of a grain, or (BALL) the grain as a ball, which is one round point.
 const grainVertex = poseText + `
-layout(location = 0) in vec3 corner;
-layout(location = 1) in uint lowGrain;
-layout(location = 2) in vec3 normal;
-layout(location = 3) in uint hidden;  // and the high bits of the grain's number: mesh.js
 uniform mat4 camera;
 uniform highp sampler2D ramp;
 uniform float scale;
 uniform int picked;
-out vec3 place, edge;
-flat out vec3 albedo, facing;
+flat out vec3 albedo;
 flat out float chosen;
 flat out uint number;
+#ifdef BALL
+layout(location = 0) in float size;
+uniform float lens;  // pixels of a metre at distance 1
+flat out vec3 place;
+flat out float radius;
+#else
+layout(location = 0) in vec3 corner;
+layout(location = 1) in uint lowGrain;
+layout(location = 2) in vec3 normal;
+layout(location = 3) in uint hidden;  // and the high bits of the grain's number: mesh.js
+out vec3 place, edge;
+flat out vec3 facing;
+#endif
 void main() {
   vec4 p, q;
+#ifdef BALL
+  uint grain = uint(gl_VertexID);
+  pose(grain, p, q);
+  place = p.xyz;
+  radius = .5 * size;
+  gl_PointSize = size * lens / (camera * vec4(place, 1.)).w;
+#else
   uint grain = lowGrain | hidden >> 3 << 16;
-  number = grain + 1u;
   pose(grain, p, q);
   place = p.xyz + turn(q, corner * scale);
   facing = turn(q, normal);
@@ -56,6 +71,8 @@ void main() {
   int c = gl_VertexID % 3;
   edge = vec3(c == 0, c == 1, c == 2);
   edge = max(edge, vec3((hidden & 1u) != 0u, (hidden & 2u) != 0u, (hidden & 4u) != 0u));
+#endif
+  number = grain + 1u;
   chosen = int(grain) == picked ? 1. : 0.;
   albedo = texelFetch(ramp, ivec2(int(clamp(p.w, 0., 1.) * 255. + .5), 0), 0).rgb;
   if (chosen > .5) albedo = vec3(.25, .9, .95);
@@ -63,20 +80,36 @@ void main() {
 }`;
 
 const grainFragment = `
-in vec3 place, edge;
-flat in vec3 albedo, facing;
+flat in vec3 albedo;
 flat in float chosen;
 out vec4 colour;
 ` + lightText + `
 uniform vec4 cut;
 uniform float scale;
+#ifdef BALL
+flat in vec3 place;
+flat in float radius;
+uniform mat3 axes;  // the camera's right, up, back
+vec3 facing;
+float edgeShare() { return 0.; }
+#else
+in vec3 place, edge;
+flat in vec3 facing;
+const float radius = 0.;  // a place is on the surface
 float edgeShare() {
   vec3 width = fwidth(edge), near = edge / max(width, 1e-4);
   float share = 1. - smoothstep(.3 + chosen, 1.5 + chosen, min(near.x, min(near.y, near.z)));
   // none where a face is a few pixels only
   return share * clamp(.55 / max(max(width.x, width.y), width.z) - 1.2, 0., 1.);
 }
+#endif
 void main() {
+#ifdef BALL
+  vec2 spot = 2. * gl_PointCoord - 1.;
+  float rest = 1. - dot(spot, spot);
+  if (rest < 0.) discard;
+  facing = axes * vec3(spot.x, -spot.y, sqrt(rest));
+#endif
   float edges = edgeShare(), rim = max(dot(facing, normalize(eye - place)), 0.);
 #ifdef CUT
   if (dot(cut.xyz, place) > cut.w) discard;
@@ -93,7 +126,8 @@ void main() {
   colour = finished(mix(albedo, around, .4), .03 + .2 * away * away + .12 * edges + .3 * chosen);
 #else
   float edgewise = mix(.8, 1., smoothstep(0., .5, rim));
-  vec3 direct = max(dot(facing, sun), 0.) * sunColour * lit(place + facing * scale * .02);
+  float sunlit = lit(place + facing * (radius + scale * .02)) * max(dot(facing, sun), 0.);
+  vec3 direct = sunlit * sunColour;
   vec3 c = albedo * (edgewise * (direct + ambient(facing)) + .08 * rim);
   colour = finished(c * (1. - .35 * edges), 1.);
 #endif
@@ -102,10 +136,16 @@ void main() {
 // The number of the grain as a colour.
 const numberFragment = `
 flat in uint number;
+#ifdef BALL
+flat
+#endif
 in vec3 place;
 uniform vec4 cut;
 out vec4 colour;
 void main() {
+#ifdef BALL
+  if (length(2. * gl_PointCoord - 1.) > 1.) discard;
+#endif
 #ifdef CUT
   if (dot(cut.xyz, place) > cut.w) discard;
 #endif

@@ -84,8 +84,7 @@ class Stage {
 
   upload() {
     const gl = this.gl;
-    this.grains = this.vertices(this.mesh.bytes, 12, [[0, 3, gl.SHORT, 0],
-      [1, 1, gl.UNSIGNED_SHORT, 6, true], [2, 3, gl.BYTE, 8], [3, 1, gl.UNSIGNED_BYTE, 11, true]]);
+    this.balls = this.vertices(this.data.size, 4, [[0, 1, gl.FLOAT, 0]]);
     this.planes = this.vertices(null, 20, [[0, 3, gl.FLOAT, 0], [1, 2, gl.FLOAT, 12]]);
     this.nothing = gl.createVertexArray();
     this.texture("states", gl.RGBA32F, 1024, this.data.state.length / 4096);
@@ -101,6 +100,7 @@ class Stage {
     gl.drawBuffers([gl.NONE]);
     gl.readBuffer(gl.NONE);
     const reach = 1.02 * this.data.radius, { centre } = this.data;
+    this.shadowLens = 0.5 * shadowSize / reach;
     this.shadowMatrix = product(orthographic(reach, 0, 4 * reach),
       looking(add(centre, times(light.to, 2 * reach)), centre));
     this.rodRows = this.rods = 0;
@@ -152,20 +152,39 @@ class Stage {
     if (at.cut) gl.uniform4fv(at.cut, look.cut);
     return at;
   }
+  lens(camera) {
+    return 0.5 * this.canvas.height / Math.tan(camera.angle(this.aspect) / 2);
+  }
+
+  // All grains by a program: their corners, or each as one ball (look.balls), of which a metre has
+  // `lens` pixels at distance 1.
+  drawBodies(at, look, lens) {
+    const { gl } = this;
+    gl.uniform1f(at.scale, this.data.head.scale);
+    if (look.balls) {
+      gl.uniform1f(at.lens, lens);
+      gl.bindVertexArray(this.balls.array);
+      gl.drawArrays(gl.POINTS, 0, this.data.grains);
+      return;
+    }
+    this.corners ??= this.vertices(this.mesh.bytes, 12, [[0, 3, gl.SHORT, 0],
+      [1, 1, gl.UNSIGNED_SHORT, 6, true], [2, 3, gl.BYTE, 8], [3, 1, gl.UNSIGNED_BYTE, 11, true]]);
+    gl.bindVertexArray(this.corners.array);
+    gl.drawArrays(gl.TRIANGLES, 0, this.mesh.corners);
+  }
 
   // The grains' numbers as colours, and their depths.
-  drawNumbers(camera, look) {
-    const gl = this.gl, at = this.use("number", ...look.cut ? ["CUT"] : []);
+  drawNumbers(camera, look, lens) {
+    const gl = this.gl, at = this.use("number", ...look.cut ? ["CUT"] : [],
+      ...look.balls ? ["BALL"] : []);
     gl.enable(gl.DEPTH_TEST);
     gl.disable(gl.BLEND);
     gl.depthMask(true);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.uniformMatrix4fv(at.camera, false, camera);
-    gl.uniform1f(at.scale, this.data.head.scale);
     if (at.cut) gl.uniform4fv(at.cut, look.cut);
-    gl.bindVertexArray(this.grains.array);
-    if (look.grains !== "hidden") gl.drawArrays(gl.TRIANGLES, 0, this.mesh.corners);
+    if (look.grains !== "hidden") this.drawBodies(at, look, lens);
   }
 
   // Which grain is seen at a place of the picture of unit size, y downward; -1: none.
@@ -173,7 +192,7 @@ class Stage {
     const { gl } = this, pixel = new Uint8Array(4);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.numberTarget);
     gl.viewport(0, 0, numberSize, numberSize);
-    this.drawNumbers(look.camera.matrix(this.aspect), look);
+    this.drawNumbers(look.camera.matrix(this.aspect), { ...look, balls: false });
     gl.readPixels(Math.floor(x * numberSize), Math.floor((1 - y) * numberSize), 1, 1, gl.RGBA,
       gl.UNSIGNED_BYTE, pixel);
     return (pixel[0] | pixel[1] << 8 | pixel[2] << 16) - 1;
@@ -182,14 +201,13 @@ class Stage {
   drawGrains(look) {
     if (look.grains === "hidden") return;
     const gl = this.gl, ghost = look.grains === "ghost";
-    const at = this.lit("grain", look, ghost ? ["GHOST"] : []);
-    gl.uniform1f(at.scale, this.data.head.scale);
+    const at = this.lit("grain", look, [...ghost ? ["GHOST"] : [], ...look.balls ? ["BALL"] : []]);
     gl.uniform1i(at.picked, look.picked);
-    gl.bindVertexArray(this.grains.array);
+    if (look.balls) gl.uniformMatrix3fv(at.axes, false, look.camera.axes.flat());
     gl.depthMask(!ghost);
     if (ghost) gl.enable(gl.BLEND); else gl.disable(gl.BLEND);
     if (!look.cut) gl.enable(gl.CULL_FACE);  // the back of a grain is its cut face
-    gl.drawArrays(gl.TRIANGLES, 0, this.mesh.corners);
+    this.drawBodies(at, look, this.lens(look.camera));
     gl.disable(gl.CULL_FACE);
     gl.depthMask(true);
   }
@@ -218,7 +236,7 @@ class Stage {
     const { gl, canvas: { width, height } } = this, at = this.use("rod");
     gl.uniformMatrix4fv(at.camera, false, camera.matrix(this.aspect));
     gl.uniform2f(at.pixels, width, height);
-    gl.uniform1f(at.lens, 0.5 * height / Math.tan(camera.angle(width / height) / 2));
+    gl.uniform1f(at.lens, this.lens(camera));
     gl.bindVertexArray(this.nothing);
     gl.disable(gl.BLEND);
     gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);  // edges are smooth, and hide what is behind
@@ -233,11 +251,12 @@ class Stage {
     this.fill("ramp", 256, 1, ramp);
     this.setRods(look.rods);
     // The shadow stays while nothing but the camera moves; glass throws none.
-    const cast = solid ? [this.data.now, ...look.cut || []].join() : "none";
+    const cast = solid ? [this.data.now, look.balls, ...look.cut || []].join() : "none";
     if (cast !== this.cast) {
       gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadowTarget);
       gl.viewport(0, 0, shadowSize, shadowSize);
-      this.drawNumbers(this.shadowMatrix, solid ? look : { ...look, grains: "hidden" });
+      this.drawNumbers(this.shadowMatrix, solid ? look : { ...look, grains: "hidden" },
+        this.shadowLens);
       this.cast = cast;
     }
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
