@@ -114,7 +114,7 @@ class NewtonBurst final : public Solver {
           "newton_burst: the problem has no dynamics form (M, H): it solves in the bodies' "
           "unknowns");
     sweeps_->prepare(problem);
-    is_ready_ = walk_.is_prepared = false;
+    is_ready_ = short_walk_.is_prepared = walk_.is_prepared = false;
     problem_ = &problem;
     if (!begins_with_sweeps_) make_ready();
   }
@@ -122,7 +122,7 @@ class NewtonBurst final : public Solver {
   void use_team(WorkerTeam* team) override {
     sweeps_->use_team(team);
     newton_.use_team(team);
-    walk_.solver->use_team(team);
+    for (LateSolver* way : {&short_walk_, &walk_}) way->solver->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
@@ -144,8 +144,9 @@ class NewtonBurst final : public Solver {
     double error = newton_.settle(at);
     descend(course, at, error, end);
     endgame(course, at, error);
-    if (course.over()) return course.finish();
-    course.run(walk_.prepared(problem), problem, most_walk_steps);
+    // A few steps with plain sweeps and a smaller rho first: where they help, they help at once.
+    if (!course.over()) course.run(short_walk_.prepared(problem), problem, short_walk_steps);
+    if (!course.over()) course.run(walk_.prepared(problem), problem, most_walk_steps);
     return course.finish();
   }
 
@@ -311,11 +312,12 @@ class NewtonBurst final : public Solver {
     return least;
   }
 
-  static constexpr int most_walk_steps = 1000;  ///< Newton steps
+  static constexpr int short_walk_steps = 8, most_walk_steps = 1000;  ///< Newton steps
   const bool begins_with_sweeps_;
   std::unique_ptr<Solver> sweeps_ = make_nesterov_pgs(/*returns_best=*/false);
   RegularNewton newton_;
-  /// Proximal-point steps that may pass through worse places, which come out of jams.
+  // Proximal-point steps that may pass through worse places, which come out of jams.
+  LateSolver short_walk_{make_proximal_newton({.start_sweeps = 0})};
   LateSolver walk_{make_proximal_newton(
       {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}})};
   bool is_ready_ = false;  ///< newton_ is prepared for problem_
