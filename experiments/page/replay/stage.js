@@ -167,9 +167,9 @@ class Stage {
       gl.drawArrays(gl.POINTS, 0, this.data.grains);
       return;
     }
-    this.corners ??= this.vertices(this.mesh.bytes, 12, [[0, 3, gl.SHORT, 0],
+    this.grains ??= this.vertices(this.mesh.bytes, 12, [[0, 3, gl.SHORT, 0],
       [1, 1, gl.UNSIGNED_SHORT, 6, true], [2, 3, gl.BYTE, 8], [3, 1, gl.UNSIGNED_BYTE, 11, true]]);
-    gl.bindVertexArray(this.corners.array);
+    gl.bindVertexArray(this.grains.array);
     gl.drawArrays(gl.TRIANGLES, 0, this.mesh.corners);
   }
 
