@@ -89,7 +89,7 @@ Division read_division(const SideReader& side, const GlobalProblem& global) {
     if (division.rows[c] != 1 && division.rows[c] != 3)
       side.file.fail(path_of("rows") + "[" + std::to_string(c) + "] is neither 1 nor 3");
     const int last = std::max(division.body_a[c], division.body_b[c]);
-    if (last + 1 >= static_cast<int>(begin.size()))
+    if (last >= static_cast<int>(begin.size()) - 1)
       side.file.fail(path_of("body_a") + ", body_b: no such body: " + std::to_string(last));
   }
   return division;

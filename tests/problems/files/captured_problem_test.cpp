@@ -125,6 +125,8 @@ TEST_CASE("what does not fit the problem is named") {
         "/ballast/rows[1] is neither 1 nor 3");
   CHECK(broken("/ballast/body_a", std::vector<int>{9, 0, 0, 0, 0, 0}) ==
         "/ballast/body_a, body_b: no such body: 9");
+  CHECK(broken("/ballast/body_a", std::vector<int>{2147483647, 0, 0, 0, 0, 0}) ==
+        "/ballast/body_a, body_b: no such body: 2147483647");
   write_captured(file, sample());
   remove(file, "/ballast/phase");
   CHECK(complaint(file, read_captured) == "/ballast/phase: no such dataset");
