@@ -165,17 +165,19 @@ std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron,
 
 /// The sine of the smallest angle to another face's normal; beyond 60 degrees it stays at one.
 void CollisionShape::measure_isolation() {
-  isolation_.reserve(faces_.count());
+  std::vector<double> sines(faces_.count(), 1.0);
   for (int f = 0; f < faces_.count(); ++f) {
     const Vec3 own = faces_.xyz(f);
-    double sine = 1.0;
-    for (int g = 0; g < faces_.count(); ++g) {
+    for (int g = f + 1; g < faces_.count(); ++g) {
       const Vec3 other = faces_.xyz(g);
-      if (g == f || own.dot(other) < 0.5) continue;
-      sine = std::min(sine, own.cross(other).norm());  // <= angle
+      if (own.dot(other) < 0.5) continue;
+      const double sine = own.cross(other).norm();  // <= angle
+      sines[f] = std::min(sines[f], sine);
+      sines[g] = std::min(sines[g], sine);
     }
-    isolation_.push_back(rounded_down(sine));
   }
+  isolation_.reserve(sines.size());
+  for (const double sine : sines) isolation_.push_back(rounded_down(sine));
 }
 
 /// Writes the edges between patches, and where they stand in the loops of the two faces beside.

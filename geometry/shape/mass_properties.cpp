@@ -14,16 +14,6 @@ double off_diagonal(const Mat3& inertia) {
   return off / inertia.diagonal().cwiseAbs().maxCoeff();
 }
 
-/// The same solid with every vertex p at axes^T (p - origin): seen from a frame at `origin` whose
-/// axes are the columns of `axes`.
-Polyhedron in_frame(const Polyhedron& polyhedron, const Mat3& axes, const Vec3& origin) {
-  std::vector<Vec3> vertices;
-  for (const Vec3& p : polyhedron.vertices()) vertices.push_back(axes.transpose() * (p - origin));
-  // Twice the constructor's tolerance: a motion adds its rounding to faces that were just flat
-  // enough.
-  return polyhedron.with_vertices(std::move(vertices), 2e-9);
-}
-
 }  // namespace
 
 Mat3 principal_axes(const Mat3& inertia) {
@@ -81,7 +71,7 @@ PrincipalShape to_principal_frame(const Polyhedron& polyhedron) {
   MassProperties properties = mass_properties(polyhedron);
   Mat3 axes = principal_axes(properties.inertia);
   Vec3 origin = properties.centre;
-  Polyhedron shape = in_frame(polyhedron, axes, origin);
+  Polyhedron shape = polyhedron.in_frame(axes, origin);
   properties = mass_properties(shape);
 
   // The coordinates of a mesh far from its origin are rounded to that distance, and so are its
@@ -89,7 +79,7 @@ PrincipalShape to_principal_frame(const Polyhedron& polyhedron) {
   if (properties.centre.norm() > 1e-15 * shape.circumradius() ||
       off_diagonal(properties.inertia) > 1e-12) {
     const Mat3 correction = principal_axes(properties.inertia);
-    shape = in_frame(shape, correction, properties.centre);
+    shape = shape.in_frame(correction, properties.centre);
     origin += axes * properties.centre;
     axes = axes * correction;
     properties = mass_properties(shape);

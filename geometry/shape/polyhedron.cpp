@@ -100,11 +100,7 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
                        double tolerance, double rounding)
     : vertices_(std::move(vertices)) {
   check_coordinates(vertices_);
-  const Vec3 centre = mean(vertices_);
-  for (const Vec3& p : vertices_) {
-    size_ = std::max(size_, (p - centre).norm());
-    circumradius_ = std::max(circumradius_, p.norm());
-  }
+  measure_size();
   if (!(size_ > 0.0)) invalid(At{}, "all vertices coincide");
   if (!std::isfinite(size_ * size_ * size_))
     invalid(At{}, "coordinates are too large: the volume overflows");
@@ -119,10 +115,29 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
   check_convex(tolerance, rounding, thinness);
 }
 
-Polyhedron Polyhedron::with_vertices(std::vector<Vec3> vertices, double tolerance) const {
+Polyhedron Polyhedron::with_vertices(std::vector<Vec3> vertices) const {
   std::vector<std::vector<int>> faces;
   for (int f = 0; f < face_count(); ++f) faces.emplace_back(face(f).begin(), face(f).end());
-  return Polyhedron(std::move(vertices), faces, tolerance);
+  return Polyhedron(std::move(vertices), faces);
+}
+
+Polyhedron Polyhedron::in_frame(const Mat3& axes, const Vec3& origin) const {
+  Polyhedron moved = *this;
+  for (Vec3& p : moved.vertices_) p = axes.transpose() * (p - origin);
+  moved.measure_size();
+  // Twice the constructor's tolerance: a motion adds its rounding to faces that were just flat
+  // enough.
+  moved.build_planes(2e-9);
+  return moved;
+}
+
+void Polyhedron::measure_size() {
+  const Vec3 centre = mean(vertices_);
+  size_ = circumradius_ = 0.0;
+  for (const Vec3& p : vertices_) {
+    size_ = std::max(size_, (p - centre).norm());
+    circumradius_ = std::max(circumradius_, p.norm());
+  }
 }
 
 /// All loops in one array: face f has those from face_begin_[f] to before face_begin_[f + 1].

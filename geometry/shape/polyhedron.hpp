@@ -50,7 +50,11 @@ class Polyhedron {
 
   /// The same faces about other vertices, one for each of this one's, in its order [m]. Throws as
   /// the constructor.
-  Polyhedron with_vertices(std::vector<Vec3> vertices, double tolerance = 1e-9) const;
+  Polyhedron with_vertices(std::vector<Vec3> vertices) const;
+
+  /// The same solid seen from a frame at `origin` whose axes are the columns of `axes`, a rotation:
+  /// each vertex p at axes^T (p - origin). It stays convex, which is not checked anew.
+  Polyhedron in_frame(const Mat3& axes, const Vec3& origin) const;
 
   int vertex_count() const { return static_cast<int>(vertices_.size()); }
   int face_count() const { return static_cast<int>(normals_.size()); }
@@ -83,6 +87,7 @@ class Polyhedron {
   std::span<const int> of_face(int f, const std::vector<int>& all) const {
     return {all.data() + face_begin_[f], static_cast<size_t>(face_begin_[f + 1] - face_begin_[f])};
   }
+  void measure_size();
   void build_faces(const std::vector<std::vector<int>>& faces);
   void join_faces();
   void check_one_piece() const;

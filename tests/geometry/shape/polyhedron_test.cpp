@@ -106,6 +106,23 @@ TEST_CASE("a polyhedron with other vertices keeps its faces") {
   CHECK_THROWS_AS(box.with_vertices(moved), InvalidPolyhedron);
 }
 
+TEST_CASE("a polyhedron in another frame is the one made anew from the moved vertices") {
+  const Polyhedron box = make_box({1, 2, 3});
+  const Mat3 axes = Quat(0.5, -0.1, 0.7, 0.2).normalized().toRotationMatrix();
+  const Vec3 origin(4, -5, 6);
+  std::vector<Vec3> moved;
+  for (const Vec3& p : box.vertices()) moved.push_back(axes.transpose() * (p - origin));
+  const Polyhedron seen = box.in_frame(axes, origin), anew = box.with_vertices(moved);
+  CHECK(seen.circumradius() == anew.circumradius());
+  CHECK(seen.inradius() == anew.inradius());
+  for (int v = 0; v < box.vertex_count(); ++v) CHECK(seen.vertex(v) == anew.vertex(v));
+  for (int f = 0; f < box.face_count(); ++f) {
+    CHECK(seen.normal(f) == anew.normal(f));
+    CHECK(seen.offset(f) == anew.offset(f));
+    CHECK(seen.normal(f).isApprox(axes.transpose() * box.normal(f), 1e-15));
+  }
+}
+
 namespace {
 
 using Faces = std::vector<std::vector<int>>;
