@@ -52,9 +52,9 @@ class Auto final : public Solver {
     int idle = 0;
     for (double steps = first_steps; !course.over() && idle < 2; steps *= 2.0) {
       const double before = course.error();
-      run(newton, course, problem, &newton == &burst_ ? 1e9 : steps);
-      run(sweeps_, course, problem, steps * step);
-      run(interior_, course, problem, 0.5 * steps);  // of which one costs about two
+      course.run(newton, problem, &newton == &burst_ ? 1e9 : steps);
+      course.run(sweeps_, problem, steps * step);
+      course.run(interior_, problem, 0.5 * steps);  // of which one costs about two
       idle = course.error() < 0.9 * before ? 0 : idle + 1;
     }
     return course.finish();
@@ -69,12 +69,6 @@ class Auto final : public Solver {
     for (int c = 0; c < problem.contact_count(); ++c)
       if (!(q[problem.row_begin[c]] >= 0.0)) return false;
     return true;
-  }
-
-  static void run(LateSolver& way, Course& course, const FrictionProblem& problem,
-                  double iterations) {
-    if (course.over()) return;
-    course.run(way.prepared(problem), problem, static_cast<int>(std::min(iterations, 1e9)));
   }
 
   static constexpr double first_steps = 40.0;  ///< of Newton's first turn

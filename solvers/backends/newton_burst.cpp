@@ -145,8 +145,8 @@ class NewtonBurst final : public Solver {
     descend(course, at, error, end);
     endgame(course, at, error);
     // A few steps with plain sweeps and a smaller rho first: where they help, they help at once.
-    if (!course.over()) course.run(short_walk_.prepared(problem), problem, short_walk_steps);
-    if (!course.over()) course.run(walk_.prepared(problem), problem, most_walk_steps);
+    course.run(short_walk_, problem, short_walk_steps);
+    course.run(walk_, problem, most_walk_steps);
     return course.finish();
   }
 

@@ -2,6 +2,7 @@
 // The bookkeeping that backends share: budget, clock, when to look at the error, why to stop,
 // history.
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -108,6 +109,12 @@ class Course : public SolveBook {
   /// with which the course is over.
   void run(Solver& solver, const FrictionProblem& problem, int most_iterations,
            decltype(Budget::gives_up) gives_up = {});
+  /// The same of a solver that is prepared when it is first needed; nothing where the course is
+  /// over.
+  void run(LateSolver& way, const FrictionProblem& problem, double most_iterations) {
+    if (!over())
+      run(way.prepared(problem), problem, static_cast<int>(std::min(most_iterations, 1e9)));
+  }
 
   void spend(int iterations) { count_ += iterations; }
   /// An iterate with its error, evaluated from the impulses alone [m/s]. Kept if it is the best, or
