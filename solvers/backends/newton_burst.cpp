@@ -101,6 +101,8 @@ class RegularNewton {
 constexpr double first_epsilon = 3e-4, smallest_epsilon = 1e-8, largest_epsilon = 0.1;
 /// Below this part of the error at zero impulse there are no more bursts.
 constexpr double endgame_from = 1e-4;
+/// Of an endgame that is patient.
+constexpr int few_contacts = 1000;
 
 double raised(double epsilon, double factor) { return std::min(largest_epsilon, factor * epsilon); }
 
@@ -226,7 +228,9 @@ class NewtonBurst final : public Solver {
   /// far as the compliance lets it. Sweeps then go further in less time. Ends where steps fail one
   /// after the other, or gain little for long.
   void endgame(Course& course, NewtonIterate& at, double error) {
-    constexpr int most_failures = 4, most_slow_steps = 15;
+    // Patience pays where contacts are few; of many the walk comes out of jams sooner.
+    const bool are_few = problem_->contact_count() <= few_contacts;
+    const int most_failures = are_few ? 40 : 4, most_slow_steps = are_few ? 200 : 15;
     double epsilon = first_epsilon, halved = error;
     int failures = 0, slow = 0;
     while (!course.over() && failures < most_failures && slow < most_slow_steps) {
