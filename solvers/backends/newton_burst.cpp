@@ -101,7 +101,7 @@ class RegularNewton {
 constexpr double first_epsilon = 3e-4, smallest_epsilon = 1e-8, largest_epsilon = 0.1;
 /// Below this part of the error at zero impulse there are no more bursts.
 constexpr double endgame_from = 1e-4;
-/// Of an endgame that is patient.
+/// The endgame is patient with up to so many contacts.
 constexpr int few_contacts = 1000;
 
 double raised(double epsilon, double factor) { return std::min(largest_epsilon, factor * epsilon); }
