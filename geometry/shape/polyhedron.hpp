@@ -53,7 +53,8 @@ class Polyhedron {
   Polyhedron with_vertices(std::vector<Vec3> vertices) const;
 
   /// The same solid seen from a frame at `origin` whose axes are the columns of `axes`, a rotation:
-  /// each vertex p at axes^T (p - origin). It stays convex, which is not checked anew.
+  /// each vertex p at axes^T (p - origin). It stays convex, which is not checked anew. Throws
+  /// InvalidPolyhedron where rounding, far from `origin`, leaves a face that is no plane any more.
   Polyhedron in_frame(const Mat3& axes, const Vec3& origin) const;
 
   int vertex_count() const { return static_cast<int>(vertices_.size()); }
