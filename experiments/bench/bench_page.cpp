@@ -142,11 +142,14 @@ std::map<std::string, double> comparison_numbers(std::span<const CompareRow> row
   const double unsolved = std::log(limit_of(rows) + shift) - 1e-12;
   for (const TriedCases& tried : tried_cases(rows, shift)) {
     const Eigen::MatrixXd& times = tried.log_seconds;
-    if (tried.start != StartKind::cold || times.rows() == 0) continue;
+    if (times.rows() == 0) continue;
+    const char* const start = tried.start == StartKind::warm ? " warm" : "";
     for (Eigen::Index s = 0; s < times.cols(); ++s) {
       const std::string name =
-          tried.solvers[static_cast<size_t>(s)] + printed(" to %g, ", tried.tolerance);
-      numbers[name + "solved"] = 100.0 * (times.col(s).array() < unsolved).cast<double>().mean();
+          tried.solvers[static_cast<size_t>(s)] + start + printed(" to %g, ", tried.tolerance);
+      const auto is_solved = (times.col(s).array() < unsolved).cast<double>();
+      numbers[name + "solved"] = 100.0 * is_solved.mean();
+      numbers[name + "cases solved"] = is_solved.sum();
       if (times.cols() == 1) continue;
       Eigen::MatrixXd others = times;
       others.col(s).setConstant(HUGE_VAL);
@@ -169,9 +172,10 @@ void run_beside(const std::string& command, const fs::path& folder) {
 }
 
 /// What the folder of a stage holds, by name: medians of a bench's measurements ("1 thread,
-/// all/step"), numbers of a run's summary ("drive_seconds"), and of a comparison from cold starts
-/// "auto to 0.0001, solved" [%] and "auto to 0.0001, beside the others", the geometric mean over
-/// cases of its time over the fastest other backend's, both 10 us longer. Throws Error.
+/// all/step"), numbers of a run's summary ("drive_seconds"), and of a comparison "auto to 0.0001,
+/// solved" [%], "auto to 0.0001, cases solved" and "auto to 0.0001, beside the others", the
+/// geometric mean over cases of its time over the fastest other backend's, both 10 us longer; from
+/// warm starts "auto warm to 0.0001, solved" and so on. Throws Error.
 std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path& folder) {
   std::map<std::string, double> numbers;
   if (stage.words.empty()) {
@@ -186,7 +190,7 @@ std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path
       numbers[m.full_name()] = m.median;
   } else if (stage.words[0] == "run") {
     numbers = Manifest::read(folder / "manifest.json").summary_numbers();
-  } else if (is_there(folder / "manifest.json")) {
+  } else if (is_there(folder / "results.csv")) {
     numbers = comparison_numbers(read_comparison(folder).rows);
   }
   return numbers;
@@ -281,7 +285,7 @@ void write_page(const BenchPage& page, const std::map<std::string, std::string>&
   write_whole_file("measured/numbers.csv", rows.take());
   write_whole_file("results.md", filled_page(page, numbers));
   for (const BenchStage& stage : page.stages)
-    if (const fs::path figure = folder_of(stage, 1) / "accuracy.svg"; is_there(figure))
+    if (const fs::path figure = folder_of(stage, 1) / "figures/live_accuracy.svg"; is_there(figure))
       write_whole_file("measured/work_precision.svg", read_whole_file(figure));
 }
 

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/page/plot.hpp"
-
 namespace ballast {
 
 /// One measured quantity. `median`, `low` and `high` (quartiles) and `mean` of `samples` values.
@@ -22,8 +20,7 @@ struct Measurement {
 Measurement measurement_of(const std::string& group, const std::string& name,
                            const std::string& unit, std::vector<double> values);
 
-/// A file of results: of one kind (kernels, step, scaling, accuracy, captured), machine and
-/// program.
+/// A file of results: of one kind (kernels, step, scaling), machine and program.
 struct BenchResult {
   std::string kind, command, commit, cpu;
   std::vector<Measurement> measurements;

@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "experiments/box/tiles.hpp"
-#include "experiments/compare/live_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/wall_cycles.hpp"
 #include "experiments/run/run.hpp"
@@ -20,10 +19,8 @@
 #include "platform/pack.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
-#include "platform/worker_team.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "solvers/gauss_seidel/any_sweep.hpp"
-#include "solvers/solver_list.hpp"
 
 namespace ballast {
 namespace {
@@ -133,26 +130,7 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
   column("penetration max", "um", &StepRecord::penetration_max, 1e6);
 }
 
-/// Wall clock of a sweep [s].
-double sweep_seconds(const FrictionProblem& problem, const Impulses& start, int sweeps,
-                     int threads) {
-  WorkerTeam team;
-  team.resize(threads);
-  AnySweep sweep;
-  sweep.use_team(&team);
-  sweep.prepare(problem);
-  sweep->load(problem, start);
-  std::vector<double> seconds;
-  for (int k = 0; k < sweeps; ++k) {
-    const Stopwatch watch;
-    sweep->sweep();
-    seconds.push_back(watch.seconds());
-  }
-  return quantile(seconds, 0.5);
-}
-
-/// What the child does: steps, then the last step's problem once more, a sweep alone and each
-/// solver to the tolerance.
+/// What the child does.
 void measure_packing(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
   const auto add = [&](const std::string& name, const char* unit, std::vector<double> values) {
     const std::string group = thread_words(point.threads) + printed(", %.0f grains", point.grains);
@@ -178,24 +156,6 @@ void measure_packing(const DepositedBox& box, const ScalingOptions& options, Sca
   add("solve", "ns/grain", record_column(steps, &StepRecord::seconds_solve, ns));
   add("step", "ns/grain", whole);
   add("memory", "B/grain", {1048576.0 * (peak_memory_MB() - before) / point.grains});
-  Impulses warm;
-  stepper.warm_start(warm);
-  const double sweep = sweep_seconds(stepper.problem(), warm, options.sweeps, point.threads);
-  add("sweep", "ns/grain", {ns * sweep});
-  add("sweep per contact", "ns/contact", {1e9 * sweep / std::max(1.0, contacts)});
-  const Budget budget{.tolerance = options.tolerance * velocity_scale(scene),
-                      .max_iterations = options.max_iterations};
-  WorkerTeam team;
-  team.resize(point.threads);
-  for (const std::string& name : options.solvers) {
-    const std::unique_ptr<Solver> solver = make_solver(name);
-    solver->use_team(&team);
-    const SolverRun run = SolverRunner().run(*solver, stepper.problem(), warm, budget);
-    if (run.is_solved())
-      add("iterations needed, " + name, "iterations", {1.0 * run.solved.iterations});
-    add((run.is_solved() ? "time to the tolerance, " : "time, tolerance not reached, ") + name,
-        "ms", {1e3 * (run.prepare_seconds + run.solve_seconds)});
-  }
 }
 
 /// What the child measured, on its way to the parent.
@@ -280,30 +240,6 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
   return result;
 }
 
-Figure step_figure(const std::vector<BenchStep>& steps, int windows) {
-  Panel phases{.x_label = "simulated time [s]", .y_label = "time of a step [ms]", .y_min = 0.0},
-      wall{.x_label = phases.x_label, .y_label = "wall, outward [m/s]"};
-  // Windows of equal length, each a point of the figure: the median of its steps.
-  const size_t length =
-      std::max<size_t>(1, steps.size() / static_cast<size_t>(std::max(1, windows)));
-  const auto add = [&](double StepRecord::*column, double factor, Curve curve, Panel& panel) {
-    for (size_t begin = 0; begin + length <= steps.size(); begin += length) {
-      std::vector<double> values;
-      for (size_t k = begin; k < begin + length; ++k)
-        values.push_back(factor * (steps[k].record.*column));
-      curve.add(steps[begin + length / 2].record.time, quantile(values, 0.5));
-    }
-    panel.curves.push_back(std::move(curve));
-  };
-  for (const StepColumn& phase : step_phases())
-    add(phase.value, 1e3, backend_curve(phases.curves.size(), phase.phase_word()), phases);
-  add(&StepRecord::wall_v, 1.0, {.ink = Ink::black}, wall);
-  return {.name = "step",
-          .title = "Where the time of a step goes",
-          .height = 620,
-          .panels = {phases, wall}};
-}
-
 double ScalingPoint::value(const std::string& name) const {
   const auto found = std::ranges::find(measured, name, &Measurement::name);
   return found == measured.end() ? not_known : found->median;
@@ -342,32 +278,6 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
       said(points.back());
     }
   return points;
-}
-
-Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPoint>& points) {
-  Panel cost{.x_label = "grains", .y_label = "ns per grain", .log_x = true, .log_y = true},
-      iterations{.x_label = "grains", .y_label = "iterations needed", .log_x = true, .y_min = 0.0};
-  const auto add = [&](const std::string& name, int threads, const std::string& title,
-                       Panel& panel) {
-    Curve curve = backend_curve(panel.curves.size(), title);
-    curve.dashed = threads != 1;
-    for (const ScalingPoint& p : points)
-      if (const double value = p.value(name); p.threads == threads && std::isfinite(value))
-        curve.add(p.grains, value);
-    panel.curves.push_back(std::move(curve));
-  };
-  for (const int threads : options.threads)
-    for (const char* name : {"detect", "assemble", "sweep"})
-      add(name, threads, std::string(name) + ", " + thread_words(threads), cost);
-  for (const std::string& solver : options.solvers)
-    add("iterations needed, " + solver, options.threads.front(), solver, iterations);
-  std::vector<Panel> panels{std::move(cost)};
-  const auto has_points = [](const Curve& curve) { return !curve.x.empty(); };
-  if (std::ranges::any_of(iterations.curves, has_points)) panels.push_back(std::move(iterations));
-  return {.name = "scaling",
-          .title = "Cost per grain over grains",
-          .height = 620,
-          .panels = std::move(panels)};
 }
 
 DepositedBox deposited_box(const std::string& name, const std::vector<std::string>& overrides,

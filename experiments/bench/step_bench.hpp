@@ -75,28 +75,21 @@ std::vector<BenchStep> measure_steps(const Scene& scene, PreparedRun start, long
 std::vector<Measurement> step_measurements(const Scene& scene, const std::vector<BenchStep>& steps,
                                            int threads);
 
-/// Time of a step by phase over simulated time, in `windows` medians; the wall's velocity below.
-Figure step_figure(const std::vector<BenchStep>& steps, int windows);
-
 struct ScalingOptions {
   std::vector<int> grains;  ///< wanted; what comes is the block's grains times a number of tiles
   std::vector<int> threads{1};
   int warm_up = 5, steps = 10;  ///< of each packing
-  int sweeps = 10;              ///< timed on the last step's problem
-  double tolerance = 1e-2;      ///< [g h] for the iterations needed
-  int max_iterations = 300;
-  std::vector<std::string> solvers{"pgs", "nncg"};
 };
 
 /// What was measured on one packing with one number of threads: by phase ns per grain and step,
-/// medians of wall clock; a sweep; memory beyond what the process had before; per solver what the
-/// tolerance took. Group "<threads> threads, <grains> grains".
+/// medians of wall clock; memory beyond what the process had before. Group "<threads> threads,
+/// <grains> grains".
 struct ScalingPoint {
   int threads = 1, nx = 1, ny = 1;
   double grains = 0.0;
   std::vector<Measurement> measured;
 
-  /// NaN: not measured, or not reached.
+  /// NaN: not measured.
   double value(const std::string& name) const;
 };
 
@@ -107,8 +100,5 @@ std::pair<int, int> tiles_for(long grains, int block);
 /// of each. Throws Error where a child fails: out of memory, out of time.
 std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said);
-
-/// ns per grain of detection, assembly and a sweep, and the iterations needed, over grains.
-Figure scaling_figure(const ScalingOptions& options, const std::vector<ScalingPoint>& points);
 
 }  // namespace ballast

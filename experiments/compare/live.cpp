@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "experiments/box/vibrated_box.hpp"
+#include "experiments/measure/curve_fit.hpp"
 #include "experiments/record/checkpoint.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
@@ -172,11 +173,14 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
 
 int reference_of(const std::vector<Trajectory>& trajectories) {
   int best = -1;
+  double least = HUGE_VAL;
   for (size_t k = 0; k < trajectories.size(); ++k) {
     const Trajectory& t = trajectories[k];
     if (!t.is_complete() || t.law != name_of(ContactLaw::coulomb)) continue;
-    if (best < 0 || t.tolerance < trajectories[static_cast<size_t>(best)].tolerance)
-      best = static_cast<int>(k);
+    const double error = statistics(record_column(t.steps, &StepRecord::error_rms)).mean;
+    if (!(error < least)) continue;
+    least = error;
+    best = static_cast<int>(k);
   }
   return best;
 }

@@ -57,8 +57,8 @@ struct LiveComparison {
   Scene scene;
   double velocity_scale = 1.0;  ///< [m/s]: tolerances are relative to it
   bool has_driven_wall = false;
-  int reference = -1;  ///< index of the reference solution: exact law, tightest tolerance,
-                       ///< complete, first listed; -1: none
+  int reference = -1;  ///< index of the reference solution: exact law, complete, least mean error,
+                       ///< first listed; -1: none
   std::vector<Trajectory> trajectories;
   const Trajectory* reference_trajectory() const {
     return reference < 0 ? nullptr : &trajectories[static_cast<size_t>(reference)];

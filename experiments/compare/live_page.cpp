@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
@@ -56,34 +57,34 @@ double last_distance(const Trajectory& t, const LiveComparison& c) {
 using T = const Trajectory&;
 using C = const LiveComparison&;
 constexpr LiveNumber shown_numbers[] = {
-    {"error_mean", "", "error, mean", "", 1.0, 3,
+    {"error_mean", "error, mean", "", 1.0, 3,
      [](T t, C c) { return over_steps(t, &StepRecord::error_rms).mean / c.velocity_scale; }},
-    {"error_max", "", "worst", "", 1.0, 3,
+    {"error_max", "worst", "", 1.0, 3,
      [](T t, C c) { return over_steps(t, &StepRecord::error_rms).max / c.velocity_scale; }},
-    {"missed", "", "above tolerance", "%", 100.0, 3, missed_share},
-    {"wall_x_end", "m", "wall *x*", "mm", 1e3, 4,
+    {"missed", "above tolerance", "%", 100.0, 3, missed_share},
+    {"wall_x_end", "wall *x*", "mm", 1e3, 4,
      [](T t, C c) { return c.has_driven_wall ? last_of(t, &StepRecord::wall_x) : not_known; }},
-    {"wall_force_mean", "N", "mean *f*~g~", "N", 1.0, 4,
+    {"wall_force_mean", "mean *f*~g~", "N", 1.0, 4,
      [](T t, C c) {
        return c.has_driven_wall ? over_steps(t, &StepRecord::wall_force).mean : not_known;
      }},
-    {"penetration_max", "m", "overlap", "µm", 1e6, 3,
+    {"penetration_max", "overlap", "µm", 1e6, 3,
      [](T t, C) { return over_steps(t, &StepRecord::penetration_max).max; }},
-    {"kinetic_energy_end", "J", "kinetic energy", "J", 1.0, 3,
+    {"kinetic_energy_end", "kinetic energy", "J", 1.0, 3,
      [](T t, C) { return last_of(t, &StepRecord::kinetic_energy); }},
-    {"energy_residual", "J", nullptr, "", 1.0, 3,
+    {"energy_residual", nullptr, "", 1.0, 3,
      [](T t, C) {
        return over_steps(t, &StepRecord::energy_residual).mean *
               static_cast<double>(t.steps.size());
      }},
-    {"solid_fraction_end", "", "solid fraction", "", 1.0, 4,
+    {"solid_fraction_end", "solid fraction", "", 1.0, 4,
      [](T t, C) { return last_solid_fraction(t); }},
-    {"iterations_mean", "", "iterations", "", 1.0, 3,
+    {"iterations_mean", "iterations", "", 1.0, 3,
      [](T t, C) { return over_steps(t, &StepRecord::iterations).mean; }},
-    {"ms_per_step", "ms", nullptr, "", 1.0, 3, [](T t, C) { return 1e3 * mean_step_seconds(t); }},
-    {"solve_ms_per_step", "ms", "solve per step", "ms", 1.0, 3,
+    {"ms_per_step", nullptr, "", 1.0, 3, [](T t, C) { return 1e3 * mean_step_seconds(t); }},
+    {"solve_ms_per_step", "solve per step", "ms", 1.0, 3,
      [](T t, C) { return 1e3 * over_steps(t, &StepRecord::seconds_solve).mean; }},
-    {"distance_end", "m", "distance", "µm", 1e6, 3, last_distance}};
+    {"distance_end", "distance", "µm", 1e6, 3, last_distance}};
 
 /// A backend's colour; the tightest tolerance is a whole line, looser ones have shorter dashes.
 Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& trajectory) {
@@ -157,8 +158,8 @@ page::Table numbers_table(const LiveComparison& comparison) {
     std::vector<page::Text> line{label, t.law, t.ended};
     for (const LiveNumber& number : shown_numbers)
       if (number.head)
-        line.push_back(page::quantity(number.factor * number.of(t, comparison), number.shown_unit,
-                                      number.digits));
+        line.push_back(
+            page::quantity(number.factor * number.of(t, comparison), number.unit, number.digits));
     table.rows.push_back(std::move(line));
   }
   return table;
@@ -177,6 +178,33 @@ std::string origins_of(const LiveComparison& comparison) {
     origins[label]["commands"].push_back({command, "Made again by:"});
   }
   return data.dump();
+}
+
+/// Error over cost: a line with marks for each backend.
+Figure accuracy_figure(const LiveComparison& comparison) {
+  Panel panel{.x_label = "cost of a simulated second [s]",
+              .y_label = "error, mean over steps [g h]",
+              .log_x = true,
+              .log_y = true};
+  std::map<std::string, std::vector<std::pair<double, double>>> lines;
+  for (const Trajectory& t : comparison.trajectories)
+    if (const double error = over_steps(t, &StepRecord::error_rms).mean; error > 0.0)
+      if (t.is_complete())
+        lines[t.solver].emplace_back(mean_step_seconds(t) / comparison.scene.step,
+                                     error / comparison.velocity_scale);
+  for (auto& [solver, points] : lines) {
+    std::sort(points.begin(), points.end());
+    Curve curve = backend_curve(panel.curves.size() / 2, solver);
+    for (const auto& [x, y] : points) curve.add(x, y);
+    panel.curves.push_back(curve);
+    curve.title = {};
+    curve.mark = Mark::points;
+    panel.curves.push_back(std::move(curve));
+  }
+  panel.lines.push_back({1e-3, "1e-3", false, Ink::grey});
+  Figure figure{.name = "live_accuracy", .title = "Error against the cost of a simulated second"};
+  if (!panel.curves.empty()) figure.panels = {std::move(panel)};
+  return figure;
 }
 
 /// "steps-pgs_0_0001.csv"
@@ -260,6 +288,7 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
   add("live_solid_fraction", "Solid fraction", "solid fraction", false,
       column(&R::solid_fraction, 1.0));
   add("live_cost", "Cost", "wall clock of the solver  (s)", false, line_of_cost);
+  pictures.push_back({accuracy_figure(comparison), {page::words("live_accuracy.caption")}});
   return pictures;
 }
 

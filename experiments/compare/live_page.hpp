@@ -14,11 +14,11 @@ namespace ballast {
 /// What a trajectory came to in one number: a column of live.csv, and one of the page's table where
 /// it has a head.
 struct LiveNumber {
-  const char *name, *unit;  ///< of live.csv and `ballast bench accuracy`; SI, "" without
-  const char* head;         ///< of the page's column, in the notation of page::marked; null: none
-  const char* shown_unit;   ///< on the page
-  double factor;            ///< from `unit` to that one
-  int digits;               ///< on the page
+  const char* name;  ///< of live.csv, in SI units; ms where it ends so
+  const char* head;  ///< of the page's column, in the notation of page::marked; null: none
+  const char* unit;  ///< on the page
+  double factor;     ///< from that of live.csv to the page's
+  int digits;        ///< on the page
   /// NaN: not known, or not there (no steps, driven wall, grains or reference).
   double (*of)(const Trajectory& trajectory, const LiveComparison& comparison);
 };
@@ -28,16 +28,16 @@ std::span<const LiveNumber> live_numbers();
 std::string live_csv(const LiveComparison& comparison);
 std::string steps_csv(const Trajectory& trajectory);
 
-/// A line for every trajectory. Figures of the wall only with a driven wall, distances only with a
-/// reference. A figure of which nothing is known has no panels.
+/// A line for every trajectory; last, error against cost with a line for every backend. Figures of
+/// the wall only with a driven wall, distances only with a reference. A figure of which nothing is
+/// known has no panels.
 std::vector<page::Picture> live_figures(const LiveComparison& comparison);
 
 /// Reads manifest.json of `folder`; writes live.csv, trajectories as
 /// steps-<label>.csv, figures/*.svg and live.html there. Throws Error.
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison);
 
-/// The k-th backend's line, here and in the bench's figures: eight colours, then the same dashed,
-/// then thin.
+/// The k-th backend's line: eight colours, then the same dashed, then thin.
 Curve backend_curve(size_t k, const std::string& title);
 
 }  // namespace ballast

@@ -37,7 +37,6 @@ TEST_CASE("Steps are split into phases and states of the wall") {
       CAPTURE(column.name);
       CHECK(two.back().record.*column.value == steps.back().record.*column.value);
     }
-  CHECK(step_figure(steps, 10).panels[0].curves[0].x.size() == 10);
 }
 
 TEST_CASE("Every kernel does what it is timed for, again and again, and is found by its name") {
@@ -71,9 +70,7 @@ TEST_CASE("Scaling measures each packing in its own process") {
   CHECK(tiles_for(100000, 1200) == std::pair(9, 9));
   ScalingOptions options;
   options.grains = {12, 48};
-  options.warm_up = options.steps = options.sweeps = 2;
-  options.solvers = {"pgs"};
-  options.max_iterations = 50;
+  options.warm_up = options.steps = 2;
   int heard = 0;
   const auto points = measure_scaling(tiny_box(), options, [&](const ScalingPoint&) { ++heard; });
   REQUIRE(points.size() == 2);
@@ -84,19 +81,9 @@ TEST_CASE("Scaling measures each packing in its own process") {
   for (const ScalingPoint& p : points) {
     CHECK(p.measured[0].group ==
           (p.grains == 12.0 ? "1 thread, 12 grains" : "1 thread, 48 grains"));
-    CHECK(p.value("sweep") > 0.0);
     CHECK(p.value("step") >= p.value("detect"));
-    CHECK(p.value("iterations needed, pgs") <= 50.0);
-    CHECK(p.value("time to the tolerance, pgs") > 0.0);
+    CHECK(p.value("memory") > 0.0);
   }
-  CHECK(scaling_figure(options, points).panels[0].curves[0].x == std::vector<double>{12.0, 48.0});
-  options.grains = {12};
-  options.tolerance = 1e-12;  // one sweep does not do
-  options.max_iterations = 1;
-  const auto missed = measure_scaling(tiny_box(), options, [](const ScalingPoint&) {});
-  CHECK(std::isnan(missed[0].value("iterations needed, pgs")));
-  CHECK(missed[0].value("time, tolerance not reached, pgs") > 0.0);
-  CHECK(scaling_figure(options, missed).panels.size() == 1);  // where nothing is, nothing is drawn
 }
 
 TEST_CASE("Copies side by side are the packing again and again") {
