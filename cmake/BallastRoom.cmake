@@ -15,7 +15,6 @@ function(ballast_room name folder)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
   list(TRANSFORM ROOM_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/)
   list(REMOVE_ITEM sources ${ROOM_EXCEPT})
-  ballast_put_together(sources)
   add_library(ballast_${name} STATIC ${sources})
   list(TRANSFORM ROOM_DOORS PREPEND ballast_)
   target_link_libraries(ballast_${name}
@@ -41,20 +40,6 @@ function(ballast_hot_first target)
   endforeach()
 endfunction()
 
-# Puts the sources that include JSON first: a batch that needs its templates compiles two seconds
-# longer in the front end alone, so few batches are to need them.
-function(ballast_put_together list)
-  set(first)
-  foreach(source IN LISTS ${list})
-    file(STRINGS ${source} found REGEX "include <nlohmann/json.hpp>" LIMIT_COUNT 1)
-    if(found)
-      list(APPEND first ${source})
-    endif()
-  endforeach()
-  list(REMOVE_ITEM ${list} ${first})
-  set(${list} ${first} ${${list}} PARENT_SCOPE)
-endfunction()
-
 # The batches of a target: so many sources are one translation unit. Large batches compile fast as a
 # whole, small ones after an edit.
 function(ballast_compile_in_batches target size)
@@ -74,19 +59,6 @@ foreach(headers ballast_headers ballast_cold_headers)
 endforeach()
 target_compile_options(ballast_cold_headers PRIVATE ${ballast_cold_options})
 
-# ballast_made_source(NAME SOURCE CODE): writes CODE into SOURCE, a part of the room ballast_NAME. A
-# file that says so already stays, so that nothing is compiled again.
-function(ballast_made_source name source code)
-  set(before "")
-  if(EXISTS ${source})
-    file(READ ${source} before)
-  endif()
-  if(NOT "${before}" STREQUAL "${code}")
-    file(WRITE ${source} "${code}")
-  endif()
-  target_sources(ballast_${name} PRIVATE ${source})
-endfunction()
-
 # ballast_texts(NAME): builds the texts/*.md of all rooms beside this CMakeLists.txt into the room
 # ballast_NAME, where page::words finds them.
 function(ballast_texts name)
@@ -100,7 +72,8 @@ function(ballast_texts name)
     string(APPEND code "R\"prose(${words})prose\",\n")
   endforeach()
   string(APPEND code "  };\n}\n\n}\n")
-  ballast_made_source(${name} ${source} "${code}")
+  file(CONFIGURE OUTPUT ${source} CONTENT "${code}" @ONLY)
+  target_sources(ballast_${name} PRIVATE ${source})
 endfunction()
 
 # ballast_files(NAME FOLDER FUNCTION): builds the files of FOLDER into the room ballast_NAME, as
@@ -134,5 +107,6 @@ function(ballast_file name file function)
   set(code "#include <string>\n\nnamespace ballast {\n\nstd::string ${function}() {\n")
   string(APPEND code "  return R\"file(${text})file\";\n}\n\n}  // namespace ballast\n")
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
-  ballast_made_source(${name} ${source} "${code}")
+  file(CONFIGURE OUTPUT ${source} CONTENT "${code}" @ONLY)
+  target_sources(ballast_${name} PRIVATE ${source})
 endfunction()

@@ -116,7 +116,6 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
                                       {"profiles", "Profiles"},
                                       {"families", "Accuracy against cost, by family"},
                                       {"cost", "What cost depends on"},
-                                      {"cases", "Case by case"},
                                       {"case-figures", "Accuracy against cost, case by case"}})
       page.add({id, heading, {page::words(id)}});
   page.add({"options", "Options", {options_table(data)}});

@@ -6,8 +6,6 @@
 #include <iterator>
 #include <map>
 
-#include <nlohmann/json.hpp>
-
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "platform/atomic_file.hpp"
@@ -104,7 +102,6 @@ Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& traje
   curve.dashed = looseness > 0;
   curve.fineness = static_cast<int>(std::clamp<size_t>(looseness, 1, 3)) - 1;
   curve.width = looseness == 0 ? 2.0 : 1.6;
-  curve.origins = {trajectory.label()};
   return curve;
 }
 
@@ -163,21 +160,6 @@ page::Table numbers_table(const LiveComparison& comparison) {
     table.rows.push_back(std::move(line));
   }
   return table;
-}
-
-/// For a click on a point: its trajectory's row of the table, and the command that makes it again.
-std::string origins_of(const LiveComparison& comparison) {
-  nlohmann::ordered_json data, &origins = data["origins"] = nlohmann::ordered_json::object();
-  for (const Trajectory& t : comparison.trajectories) {
-    const std::string label = t.label();
-    origins[label] = {{"row", label}};
-    // so many iterations whatever the error are no option of the command line
-    if (t.max_iterations > 0 || comparison.command.empty()) continue;
-    const std::string command = comparison.command + " --solvers " + t.solver +
-                                printed(" --tolerances %g --output results/again", t.tolerance);
-    origins[label]["commands"].push_back({command, "Made again by:"});
-  }
-  return data.dump();
 }
 
 /// Error over cost: a line with marks for each backend.
@@ -301,11 +283,14 @@ void write_live_page(const std::filesystem::path& folder, const LiveComparison& 
       {"table",
        "Side by side",
        {page::words("live.table", {{"scale", page::quantity(comparison.velocity_scale, "m/s")}}),
-        numbers_table(comparison)}});
+        numbers_table(comparison),
+        page::Listing{
+            comparison.command + " --solvers SOLVER --tolerances TOLERANCE --output results/again",
+            "Makes one of them again"}}});
   page::Section figures{"figures", "Figures"};
   figures.add(live_figures(comparison));
   page.add(figures);
-  page.answers = {.are_given = true, .with_curves = true, .data = origins_of(comparison)};
+  page.answers = {.are_given = true, .with_curves = true};
   write_with_origin(page, read_origin(folder), folder / "live.html");
 }
 

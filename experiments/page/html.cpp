@@ -63,7 +63,7 @@ void cut_all(std::string& text, std::string_view begin, std::string_view end) {
 
 // The modules in the order in which they build upon each other.
 constexpr std::array common_modules = {"elements.js", "choice.js",  "numbers.js", "tables.js",
-                                       "palette.js",  "legends.js", "charts.js",  "origins.js",
+                                       "palette.js",  "legends.js", "charts.js",  "window.js",
                                        "pictures.js", "answers.js"};
 constexpr std::array replay_modules = {
     "vector.js", "colour.js", "data.js",  "camera.js", "shader.js", "mesh.js",  "stage.js",
@@ -103,8 +103,7 @@ Json curve_json(const Curve& curve) {
           {"x", short_numbers(curve.x)},
           {"y", short_numbers(curve.y)},
           {"error", short_numbers(curve.y_error)},
-          {"low", short_numbers(curve.y_low)},
-          {"from", curve.origins}};
+          {"low", short_numbers(curve.y_low)}};
 }
 
 Json figure_json(const Figure& figure) {

@@ -36,8 +36,6 @@ struct Curve {
   double opacity = 1.0;
   std::vector<double> y_error = {};  ///< points: half length of the bars
   std::vector<double> y_low = {};    ///< area: lower bound
-  /// What the points come from: one name for each, or one for all, of the page's data "origins".
-  std::vector<std::string> origins = {};
 
   void add(double at, double value) {
     x.push_back(at);

@@ -2,7 +2,7 @@
 // place of its tables and figures for every tolerance and start.
 
 const sections = [["backends", backends_view], ["matrix", matrix_view], ["profiles", profiles_view],
-                  ["families", family_view], ["cost", cost_view], ["cases", cases_view],
+                  ["families", family_view], ["cost", cost_view],
                   ["case-figures", case_view]];
 
 /// A section's holder of what is made; tables that the program wrote stay for print.

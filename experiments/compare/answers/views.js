@@ -32,28 +32,6 @@ function matrix_view({ solvers, cases }) {
     cases.map((c) => [c.name, String(c.row.contacts), ...c.cells.map(outcome_cell)]))];
 }
 
-function cases_view({ solvers, cases }) {
-  const line_of_case = ({ name, cells, row, fastest }) => {
-    const best = cells.findIndex((cell) => cell.solved && cell.median === fastest);
-    const nearest = cells.filter((cell) => cell.row && Number.isFinite(cell.row.error))
-      .sort((a, b) => a.row.error - b.row.error)[0];
-    const told = best >= 0 ? cells[best].row : nearest?.row;
-    const solved = cells.filter((cell) => cell.solved).length;
-    return [{ text: name, open: () => choice.set("case", name) }, row.family, String(row.contacts),
-      { text: number(row.rank_deficiency, 2), value: row.rank_deficiency },
-      { text: number(row.mass_ratio), value: row.mass_ratio },
-      { text: solved ? String(solved) : "none", value: solved, kind: solved ? null : "missed" },
-      { text: best >= 0 ? solvers[best] : told ? "nearest: " + told.solver : "",
-        open: told && (() => choice.set("row", told.key)) },
-      { text: told ? time_words(best >= 0 ? fastest : told.seconds) : "",
-        value: best >= 0 ? fastest : 1e9 },
-      { text: told ? number(told.error, 2) : "", value: told?.error ?? NaN }, told?.worst ?? ""];
-  };
-  return [table_of("case by case", [left("case"), left("family"), right("contacts"),
-    right("rank deficiency"), right("mass ratio"), right("solved by"), left("fastest"),
-    right("time"), right("error"), left("worst contact")], cases.map(line_of_case))];
-}
-
 const seconds_axis = { label: "time&nbsp; (s)", log: true };
 const error_axis = { label: "error, relative", log: true };
 const open_row = ({ row }) => { if (row) choice.set("row", row.key); };

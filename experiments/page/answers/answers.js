@@ -7,4 +7,3 @@ document.documentElement.classList.add("answers");
 for (const table of document.querySelectorAll("main table:not(.facts)"))
   if (table.tHead?.rows[0].cells[0].textContent) make_sortable(table);
 draw_pictures(page_data.pictures ?? []);
-show_origins(page_data.origins ?? {});

@@ -17,7 +17,7 @@ function panel_figure(picture, panel) {
   const curve_of = (curve) => ({
     ...curve,
     points: curve.x.map((x, k) => ({ x, y: curve.y[k], error: curve.error[k],
-                                     low: curve.low[k], from: curve.from[k] ?? curve.from[0] }))
+                                     low: curve.low[k] }))
       // where a curve has no value it is broken
       .map((point, k, all) => (point.x === null ? { x: all[k - 1]?.x ?? null, y: null } : point))
       .filter(({ x }) => x !== null && (!panel.x.log || x > 0))
@@ -41,12 +41,10 @@ function picture_charts(picture) {
         (unit ? narrow_space + unit[1] : "");
     };
     const heights = ({ y, low = null }) => low === null ? [y] : [low, y];
-    const opens = panel.curves.some((curve) => curve.from.length);
     return chart_of(panel_figure(picture, panel), {
       told: (curve, { x, error, ...point }) =>
         `${curve.title}; ${quantity(panel.x, x)}; ${quantity(panel.y, ...heights(point))}` +
         (error ? ` ± ${short_number(error)}` : ""),
-      opened: opens ? ({ from }) => choice.set("origin", from) : null,
     });
   });
 }

@@ -1,5 +1,5 @@
-// Where a point comes from: a click on it opens a window in the page's corner with what it is the
-// outcome of: facts, pages, commands. What is open stands in the address.
+// A window in the page's corner with what a point or a time is the outcome of: facts, commands.
+// What is open stands in the address.
 
 /// Lines of [what, value]; null is left out.
 const facts_table = (lines) => element("table", { class: "facts" }, element("tbody", {},
@@ -38,30 +38,4 @@ function window_for(name, label, fill) {
   };
   document.body.append(dialog);
   return refresh;
-}
-
-/// The cells of the table row that begins with these words, as facts.
-function facts_of_row(words) {
-  const row = [...document.querySelectorAll("main tbody tr")].find((one) =>
-    one.cells[0].textContent.split(" (reference)")[0] === words);
-  const heads = row ? [...row.closest("table").tHead.rows[0].cells] : [];
-  return heads.slice(1).map((head, k) => [head.textContent, row.cells[k + 1].textContent]);
-}
-
-/// The window of page_data.origins: name -> {title, row, links, commands}. Links and commands are
-/// pairs with their words.
-function show_origins(origins) {
-  if (!Object.keys(origins).length) return;
-  const refresh = window_for("origin", "Where a point comes from", (name) => {
-    const from = origins[name];
-    if (!from) return null;
-    const links = (from.links ?? []).map(([address, words]) =>
-      element("li", {}, element("a", { href: address }, words)));
-    const commands = (from.commands ?? []).flatMap(([command, words]) =>
-      [element("p", {}, words), command_line(command)]);
-    return { title: from.title ?? name, parts: [from.row && facts_table(facts_of_row(from.row)),
-      links.length ? element("ul", {}, ...links) : null, ...commands].filter(Boolean) };
-  });
-  choice.changed(refresh);
-  refresh();
 }
