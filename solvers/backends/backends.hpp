@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "solvers/gauss_seidel/sweep_variant.hpp"
 #include "solvers/parts/contact_equation.hpp"
 #include "solvers/seam/solver.hpp"
 
@@ -26,8 +25,8 @@ namespace ballast {
 std::unique_ptr<Solver> make_auto();
 
 /// Projected (nonsmooth) Gauss-Seidel: contact after contact, each solved exactly (Jean 1999;
-/// Siconos' NSGS). The plain variant has the fast loop.
-std::unique_ptr<Solver> make_gauss_seidel(const SweepVariant& variant = {});
+/// Siconos' NSGS).
+std::unique_ptr<Solver> make_gauss_seidel();
 
 /// Sweeps with Nesterov's momentum, which begins anew when a sweep changes more than the least of
 /// its search did. Nesterov 1983, "A method of solving a convex programming problem with
@@ -121,17 +120,6 @@ std::unique_ptr<Solver> make_proximal_newton(const ProximalNewtonSettings& setti
 /// Iterations count sweeps and factorisations alike. Needs the dynamics form. Without the sweeps at
 /// the beginning it is prepared for Newton at once.
 std::unique_ptr<Solver> make_newton_burst(bool begins_with_sweeps = true);
-
-/// Friction on a pyramid of eight sides instead of a cone, as a linear complementarity problem,
-/// solved exactly by Lemke's pivoting. Stewart, Trinkle 1996, "An implicit time-stepping scheme for
-/// rigid body dynamics with inelastic collisions and Coulomb friction", eq. (15); Anitescu, Potra
-/// 1997 (where it is shown to be solvable).
-///
-/// Judged on Coulomb's law like every backend: with sliding contacts that do not move along one of
-/// the directions it ends as `stalled`, and own_residual [m/s] says how well its own law is met. An
-/// iteration is a pivot; before the last one there is no iterate, and a limit returns the start.
-std::unique_ptr<Solver> make_pyramid_lemke();
-inline constexpr int pyramid_lemke_limit = 100;  ///< contacts
 
 // With libraries that a build may do without: where one is missing, has_..() is false and its
 // makers give null (missing.cpp).

@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
-#include <vector>
 
 #include "solvers/backends/backends.hpp"
 #include "solvers/gauss_seidel/any_sweep.hpp"
@@ -175,15 +173,12 @@ class SweptChange {
 /// as a few sweeps in double.
 constexpr int single_pays_from = 16;
 
-/// Sweeps by a variant, or along a search. Only swept iterates, which lie in the cones, are ever
-/// judged or returned.
+/// Sweeps, plain or along a search. Only swept iterates, which lie in the cones, are ever judged or
+/// returned.
 class GaussSeidel final : public Solver {
  public:
-  explicit GaussSeidel(const SweepVariant& variant) : variant_(variant) {
-    if (!variant_.plain()) sweep_.use_variants();
-  }
-  /// `returns_best`: of the iterates that were looked at, where a limit ends a solve; else the
-  /// last. A search may come to iterates far worse than one before.
+  /// A null rule: plain sweeps. `returns_best`: of the iterates that were looked at, where a limit
+  /// ends a solve; else the last. A search may come to iterates far worse than one before.
   GaussSeidel(std::unique_ptr<SearchRule> rule, bool returns_best)
       : rule_(std::move(rule)), returns_best_(returns_best) {}
 
@@ -195,8 +190,6 @@ class GaussSeidel final : public Solver {
     Iteration iteration(budget, rule_ ? CheckSchedule{8, 1.6, 2.0} : CheckSchedule{4, 1.25});
     SweptChange change(budget.aim(), /*is_dear=*/budget.fclib);
     if (rule_) rule_->reset();
-    order_.resize(variant_.plain() ? 0 : problem.contact_count());
-    std::iota(order_.begin(), order_.end(), 0);
     // Not in single precision where the budget asks for another measure, which may stop a solve
     // between two looks of ours.
     sweep_->allow_single(budget.max_iterations >= single_pays_from && !budget.fclib);
@@ -245,10 +238,7 @@ class GaussSeidel final : public Solver {
   /// `square` of the last sweep. Returns that of this one, along a search.
   double sweep(double square) {
     if (rule_) return sweep_->sweep_along(rule_->next(square));
-    if (variant_.plain())
-      sweep_->sweep();
-    else
-      sweep_->sweep_by(variant_, order_);
+    sweep_->sweep();
     return 0.0;
   }
 
@@ -277,17 +267,15 @@ class GaussSeidel final : public Solver {
     if (!solved.history.empty()) solved.history.back().error = error;
   }
 
-  SweepVariant variant_;
-  std::vector<int> order_;  ///< of the variants
   std::unique_ptr<SearchRule> rule_;
-  bool returns_best_ = false;
+  bool returns_best_;
   AnySweep sweep_;
 };
 
 }  // namespace
 
-std::unique_ptr<Solver> make_gauss_seidel(const SweepVariant& variant) {
-  return std::make_unique<GaussSeidel>(variant);
+std::unique_ptr<Solver> make_gauss_seidel() {
+  return std::make_unique<GaussSeidel>(/*rule=*/nullptr, /*returns_best=*/false);
 }
 
 std::unique_ptr<Solver> make_nesterov_pgs(bool returns_best) {

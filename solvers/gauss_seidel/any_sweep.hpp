@@ -12,8 +12,6 @@ namespace ballast {
 
 class AnySweep {
  public:
-  /// From the next prepare() on, contacts can be swept by a variant: one by one.
-  void use_variants() { variants_ = true; }
   /// Whose members share a sweep from now on; null: the caller alone. The same bits whatever their
   /// number.
   void use_team(WorkerTeam* team) {
@@ -30,7 +28,7 @@ class AnySweep {
       return;
     }
     plan_.prepare(problem);
-    if (!variants_ && wide_.prepare(problem)) {
+    if (wide_.prepare(problem)) {
       chosen_ = &wide_;
       return;
     }
@@ -47,7 +45,6 @@ class AnySweep {
   WideSweep wide_{plan_};
   DelassusSweep stored_;
   ContactSweep* chosen_ = &scalar_;
-  bool variants_ = false;
 };
 
 }  // namespace ballast

@@ -2,11 +2,8 @@
 // What all Gauss-Seidel sweeps have alike, whatever carries motion from contact to contact: groups
 // of contacts side by side (WideSweep), bodies (ScalarSweep), or a stored W (DelassusSweep).
 
-#include <vector>
-
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/gauss_seidel/group_kernels.hpp"
-#include "solvers/gauss_seidel/sweep_variant.hpp"
 
 namespace ballast {
 
@@ -25,9 +22,6 @@ class ContactSweep {
   /// The iterate moves along the search direction and is then swept. Returns |r after the sweep - r
   /// before it|^2 over contacts, in the sweep's coordinates.
   virtual double sweep_along(SearchStep step) = 0;
-  /// The contacts named, in that order, another way: for comparison, not for speed. Groups of
-  /// contacts are never swept so.
-  virtual void sweep_by(const SweepVariant&, const std::vector<int>& /*contacts*/) {}
   /// The judge's scaled natural map at the current iterate, rms over contacts [m/s].
   virtual double error() = 0;
 

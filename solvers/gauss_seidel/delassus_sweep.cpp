@@ -168,26 +168,6 @@ double DelassusSweep::sweep_along(SearchStep step) {
   return (r_ - before_).squaredNorm();
 }
 
-void DelassusSweep::sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) {
-  for (const int c : contacts) {
-    Contact& contact = contacts_[c];
-    const PrincipalContact& local = contact.local;
-    const Column moved = velocity(rows(), contact, r_.data());
-    double *r = r_.data() + 3 * c, u[3] = {moved[0], moved[1], moved[2]}, y[3] = {r[0], r[1], r[2]};
-    // Into principal coordinates and back, as resolve_contact() does in registers.
-    contact.turn.to_principal(u[1], u[2]);
-    contact.turn.to_principal(y[1], y[2]);
-    u[1] -= local.c1 * u[0];
-    u[2] -= local.c2 * u[0];
-    y[0] += local.c1 * y[1] + local.c2 * y[2];
-    resolve_by_variant(variant, local, contact.lambda_max, u, y, contact.slip);
-    r[0] = y[0] - local.c1 * y[1] - local.c2 * y[2];
-    contact.turn.from_principal(y[1], y[2]);
-    r[1] = y[1];
-    r[2] = y[2];
-  }
-}
-
 double DelassusSweep::error() {
   constexpr int most = 16;  // contacts at a time
   double u[4 * most];

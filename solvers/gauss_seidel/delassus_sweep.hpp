@@ -24,7 +24,6 @@ class DelassusSweep final : public ContactSweep {
   void sweep() override;
   void start_search() override;
   double sweep_along(SearchStep step) override;
-  void sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) override;
   double error() override;
 
   struct Contact {

@@ -142,29 +142,6 @@ void push_bodies(const Record& k, const double* change, Velocity* velocity) {
           k.rows[s][0][j] * change[0] + k.rows[s][1][j] * change[1] + k.rows[s][2][j] * change[2];
 }
 
-/// One contact another way; plain loops, as this way is for comparison.
-void resolve_by_variant(const SweepVariant& variant, const Record& k, Impulse& r, double lambda_max,
-                        Velocity* velocity) {
-  double y[3] = {r.y[0], r.y[1], r.y[2]};
-  if (k.row_count == 1) {
-    // Every rule solves one row exactly: what is left is relaxation.
-    relax_one_row(k, r, velocity);
-    y[0] = std::max(0.0, y[0] + variant.relaxation * (r.y[0] - y[0]));
-  } else {
-    double u[3] = {k.bias[0], k.bias[1], k.bias[2]};
-    for (int i = 0; i < 3; ++i)
-      for (int s = 0; s < 2; ++s)
-        for (int j = 0; j < 6; ++j) u[i] += k.rows[s][i][j] * velocity[k.body[s]].w[j];
-    resolve_by_variant(variant, k.local, lambda_max, u, y, r.slip);
-  }
-  for (int i = 0; i < 3; ++i) {
-    const double change = y[i] - r.y[i];
-    r.y[i] = y[i];
-    for (int s = 0; s < 2; ++s)
-      for (int j = 0; j < 6; ++j) velocity[k.body[s]].w[j] += k.rows[s][i][j] * change;
-  }
-}
-
 /// Arguments in registers: through memory, the vectors that the caller's clone makes of them would
 /// not be forwarded.
 [[gnu::noinline]] double judged(double rn, double r1, double r2, double un, double u1, double u2,
@@ -340,12 +317,6 @@ double ScalarSweep::sweep_along(SearchStep step) {
   double square = 0.0;
   for (const double part : part_square_) square += part;
   return square;
-}
-
-void ScalarSweep::sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) {
-  for (const int c : contacts)
-    resolve_by_variant(variant, records_[place_[c]], impulses_[place_[c]], lambda_max_[place_[c]],
-                       velocity_.data());
 }
 
 double ScalarSweep::error() {

@@ -1,7 +1,7 @@
 #pragma once
 // The sweep over bodies contact after contact, for problems of any kind: bodies with other unknowns
-// than a grain's, sides that are not opposite, few contacts, other orders and rules. Of what a time
-// step of a packing gives, WideSweep is the faster way.
+// than a grain's, sides that are not opposite, few contacts. Of what a time step of a packing
+// gives, WideSweep is the faster way.
 //
 // Bodies are in the variables w = L^T v (M = L L^T, unit mass), contacts in the coordinates of
 // PrincipalContact:
@@ -36,7 +36,6 @@ class ScalarSweep final : public ContactSweep {
   void start_search() override;
   /// Contact by contact as the sweep passes: a small problem's sweep is shorter than its copies.
   double sweep_along(SearchStep step) override;
-  void sweep_by(const SweepVariant& variant, const std::vector<int>& contacts) override;
   double error() override;
 
   static constexpr int width = 8;  ///< numbers of a row: six, and two zeros that fill a register

@@ -16,9 +16,7 @@ const char* name_of(StopReason reason) {
 
 const char* name_of(Verdict verdict) { return name_in(verdict_names, verdict); }
 
-const char* name_of(ContactLaw law) {
-  return name_in({"coulomb", "convex_relaxation", "pyramid"}, law);
-}
+const char* name_of(ContactLaw law) { return name_in({"coulomb", "convex_relaxation"}, law); }
 
 bool FclibStop::reached(const Impulses& r, double natural_map) {
   if (!std::isfinite(natural_map)) return false;

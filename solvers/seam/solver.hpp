@@ -38,7 +38,7 @@ inline constexpr const char* verdict_names[] = {"solved",        "unsolved",    
                                                 "out_of_memory", "unsupported", "unreadable"};
 
 /// The law that a backend really solves; each one is judged on Coulomb's.
-enum class ContactLaw { coulomb, convex_relaxation, pyramid };
+enum class ContactLaw { coulomb, convex_relaxation };
 
 const char* name_of(StopReason reason);
 const char* name_of(Verdict verdict);

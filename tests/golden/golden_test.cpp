@@ -59,8 +59,8 @@ TEST_CASE("golden: the values hold what they are meant to hold") {
     names += table.name + " ";
   }
   CHECK(names ==
-        "libm grains contacts problem backends backends_libm backends_factoring deposit packing "
-        "packing_bodies drive "
+        "libm grains contacts problem backends backends_factoring deposit packing packing_bodies "
+        "drive "
         "drive_last_step drive_bodies ");
   // the correction had something to do, contacts slide and stick
   for (const Table& table : expected.tables)

@@ -68,11 +68,6 @@ struct Kind {
 /// Without a foreign library, which would sum in the order that suits the processor.
 bool is_own_code(const SolverEntry& entry) { return std::string(entry.needs.package).empty(); }
 
-/// Own code that decides by libm's last bits, or not by the problem alone.
-bool is_through_libm(const SolverEntry& entry) {
-  return entry.name == std::string("pyramid_lemke");  // sine and cosine for the sides
-}
-
 /// SuiteSparse orders the bodies, which is a matter of whole numbers; the factors are our own.
 bool factors_over_bodies(const SolverEntry& entry) {
   constexpr std::array names = {"admm",      "interior_point", "newton_ac", "newton_burst",
@@ -81,11 +76,7 @@ bool factors_over_bodies(const SolverEntry& entry) {
 }
 
 constexpr std::array backend_kinds = {
-    Kind{"backends",
-         Through::arithmetic,
-         {1, 3, 20},
-         [](const SolverEntry& entry) { return is_own_code(entry) && !is_through_libm(entry); }},
-    Kind{"backends_libm", Through::libm, {1, 3, 20}, is_through_libm},
+    Kind{"backends", Through::arithmetic, {1, 3, 20}, is_own_code},
     // newton_burst begins with 500 sweeps
     Kind{factoring_table, Through::libm, {1, 20, 520}, factors_over_bodies}};
 

@@ -12,7 +12,7 @@ TEST_CASE("reasons, verdicts and laws have the names that records keep") {
   CHECK(std::string(name_of(Verdict::solved)) == "solved");
   CHECK(std::string(name_of(Verdict::unreadable)) == "unreadable");
   CHECK(std::string(name_of(ContactLaw::coulomb)) == "coulomb");
-  CHECK(std::string(name_of(ContactLaw::pyramid)) == "pyramid");
+  CHECK(std::string(name_of(ContactLaw::convex_relaxation)) == "convex_relaxation");
 }
 
 TEST_CASE("what is left of a budget is never less than nothing, and the rest of it stays") {
