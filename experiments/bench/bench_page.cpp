@@ -190,7 +190,7 @@ std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path
       numbers[m.full_name()] = m.median;
   } else if (stage.words[0] == "run") {
     numbers = Manifest::read(folder / "manifest.json").summary_numbers();
-  } else if (is_there(folder / "results.csv")) {
+  } else if (stage.words.size() > 1 && stage.words[1] != "collect" && stage.words[1] != "--live") {
     numbers = comparison_numbers(read_comparison(folder).rows);
   }
   return numbers;

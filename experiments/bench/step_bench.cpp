@@ -130,7 +130,7 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
   column("penetration max", "um", &StepRecord::penetration_max, 1e6);
 }
 
-/// What the child does.
+/// Steps a packing, and says what they took: the child's work.
 void measure_packing(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
   const auto add = [&](const std::string& name, const char* unit, std::vector<double> values) {
     const std::string group = thread_words(point.threads) + printed(", %.0f grains", point.grains);

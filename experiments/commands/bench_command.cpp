@@ -8,9 +8,6 @@
 #include "experiments/commands/command.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
-#include "platform/interrupt.hpp"
-#include "platform/program.hpp"
-#include "platform/text.hpp"
 
 namespace ballast {
 
@@ -29,7 +26,7 @@ struct BenchRequest {
   DepositedBox box() const { return deposited_box(scene, overrides, packing_cache); }
 };
 
-constexpr int most_count = 1'000'000'000;  // of steps, iterations, repetitions
+constexpr int most_count = 1'000'000'000;  // of steps, repetitions
 
 void say(const std::string& text) { std::cout << text << std::flush; }
 
@@ -43,52 +40,46 @@ void require_own_results(const BenchRequest& request, const std::string& kind) {
       {{"kernels.json", ours}, {"step.json", ours}, {"scaling.json", ours}, "packings"});
 }
 
-ExitCode finish(const BenchRequest& request, const std::string& kind,
-                const std::vector<Measurement>& measurements) {
-  write_bench_result(request.output, kind, own_command(), measurements);
-  say(measurement_table(measurements) + "\nresults in " + request.output.string() + ": " + kind +
-      ".json\n");
-  return ExitCode::ok;
-}
+using Measurements = std::vector<Measurement>;
 
-ExitCode bench_kernels(const BenchRequest& request) {
+Measurements bench_kernels(const BenchRequest& request) {
   const DepositedBox box = request.box();
   try {
-    return finish(request, "kernels", run_kernels(step_kernels(box, 20), request.kernels));
+    return run_kernels(step_kernels(box, 20), request.kernels);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("bench: --filter: ") + error.what());
   }
 }
 
-ExitCode bench_step(const BenchRequest& request) {
+Measurements bench_step(const BenchRequest& request) {
   const DepositedBox box = request.box();
-  std::vector<Measurement> measurements;
+  Measurements measurements;
   for (const int threads : request.threads) {
     const std::vector<BenchStep> steps =
         measure_steps(box.scene, driven_start(box), request.steps, threads);
     for (Measurement& m : step_measurements(box.scene, steps, threads))
       measurements.push_back(std::move(m));
   }
-  return finish(request, "step", measurements);
+  return measurements;
 }
 
-ExitCode bench_scaling(const BenchRequest& request) {
+Measurements bench_scaling(const BenchRequest& request) {
   const DepositedBox box = request.box();
   const auto points = measure_scaling(box, request.scaling, [](const ScalingPoint& p) {
     std::cout << p.nx << " x " << p.ny << " copies, " << p.grains << " grains, " << p.threads
               << " threads: " << 1e-3 * p.value("step") << " us a grain and step, "
               << p.value("memory") << " B a grain" << std::endl;
   });
-  std::vector<Measurement> measurements;
+  Measurements measurements;
   for (const ScalingPoint& p : points)
     measurements.insert(measurements.end(), p.measured.begin(), p.measured.end());
-  return finish(request, "scaling", measurements);
+  return measurements;
 }
 
 /// A subcommand that measures on a scene: what all of them have, then `more`.
 Command measuring(const char* name, const char* meaning,
                   const std::shared_ptr<BenchRequest>& request,
-                  ExitCode (*act)(const BenchRequest&), const std::vector<Word>& more) {
+                  Measurements (*measure)(const BenchRequest&), const std::vector<Word>& more) {
   std::vector<Word> words{
       {"scene", &request->scene, "A scene with grains"},
       {"--set KEY=VALUE", &request->overrides,
@@ -98,7 +89,11 @@ Command measuring(const char* name, const char* meaning,
   words.insert(words.end(), more.begin(), more.end());
   return {name, meaning, words, [=] {
             require_own_results(*request, name);
-            return act(*request);
+            const Measurements measurements = measure(*request);
+            write_bench_result(request->output, name, own_command(), measurements);
+            say(measurement_table(measurements) + "\nresults in " + request->output.string() +
+                ": " + name + ".json\n");
+            return ExitCode::ok;
           }};
 }
 

@@ -206,6 +206,10 @@ std::vector<ComparedSolver> solvers_or_none(const std::string& list) {
   return list == "none" ? std::vector<ComparedSolver>() : parse_solvers(list);
 }
 
+std::vector<double> tolerances_or_none(const std::string& list) {
+  return list == "none" ? std::vector<double>() : parse_tolerances(list);
+}
+
 constexpr const char* interrupted =
     "compare: interrupted; nothing is lost, the same command goes on";
 
@@ -241,6 +245,8 @@ ExitCode compare(CompareRequest& options) {
   if (options.cases.empty() == options.live.scene.empty())
     throw UsageError(options.cases.empty() ? "compare: expected cases, or --live SCENE"
                                            : "compare: --live SCENE: not with cases");
+  if (options.comparison.tolerances.empty() && options.live.iterations.empty())
+    throw UsageError("compare: --tolerances none: expected --live SCENE --iterations COUNT");
   const std::filesystem::path& output = options.comparison.folder;
   require_own_folder(output, {"rows", "trajectories", "start", "exact"});
   if (!options.external.empty() && !options.live.scene.empty())
@@ -285,15 +291,34 @@ ExitCode compare(CompareRequest& options) {
               reasons);
 }
 
+std::vector<Word> live_words(LiveOptions& live) {
+  return {
+      {"--live SCENE", &live.scene,
+       "Instead of cases: a scene's closed loop from one start under each backend and tolerance"},
+      {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value", needs("--live")},
+      {"--from", &live.start,
+       "Simulated time up to which the scene's own solver goes, once for all [s]", at_least(0),
+       needs("--live")},
+      {"--duration", &live.duration, "Simulated from there under each backend [s]", above(0),
+       needs("--live")},
+      {"--iterations", &live.iterations,
+       "Besides the tolerances: so many in every step, whatever the error", at_least(1),
+       needs("--live")},
+      {"--threads", &live.threads, "Of the step and its solver", between(1, 256), needs("--live")},
+      {"--trajectory-seconds", &live.trajectory_seconds, "Wall clock of one trajectory", above(0),
+       needs("--live")},
+      {"--packing-cache DIR", &live.packing_cache,
+       "Where deposited packings are kept (<output>/packings)", needs("--live")}};
+}
+
 }  // namespace
 
 Command compare_command() {
   const auto options = std::make_shared<CompareRequest>();
   CompareOptions& comparison = options->comparison;
-  LiveOptions& live = options->live;
   comparison.exact_seconds = 5.0;
   comparison.folder = "results/compare";
-  return {
+  Command command{
       "compare",
       "Backends on identical problems: accuracy against cost, figures, a page",
       {{"cases", &options->cases, "Problem files, folders, patterns, known:..., stress:..."},
@@ -304,8 +329,8 @@ Command compare_command() {
        {"--startup-seconds", &options->program_limits.startup_seconds,
         "Wall clock that such a program may take beside --max-seconds, to start and read",
         at_least(0)},
-       {"--tolerances", into(comparison.tolerances, parse_tolerances, "1e-4,1e-8"),
-        "Separated by commas"},
+       {"--tolerances", into(comparison.tolerances, tolerances_or_none, "1e-4,1e-8"),
+        "Separated by commas; none: only with --iterations"},
        {"--starts", into(comparison.starts, parse_starts, "cold"),
         "cold, warm or cold,warm; warm where a case has a warm start"},
        {"--measure", into(comparison.measure, measure_of, "natural_map"), "natural_map or fclib"},
@@ -319,32 +344,18 @@ Command compare_command() {
         at_least(0)},
        {"--output DIR", &comparison.folder, "Folder of the results"},
        {"--no-report", &options->report, "No figures and no page"},
-       {"--quiet", &options->is_quiet, "Says nothing but failures"},
-       {"--live SCENE", &live.scene,
-        "Instead of cases: a scene's closed loop from one start under each backend and tolerance"},
-       {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value", needs("--live")},
-       {"--from", &live.start,
-        "Simulated time up to which the scene's own solver goes, once for all [s]", at_least(0),
-        needs("--live")},
-       {"--iterations", &live.iterations,
-        "Besides the tolerances: so many in every step, whatever the error", at_least(1),
-        needs("--live")},
-       {"--threads", &live.threads, "Of the step and its solver", between(1, 256), needs("--live")},
-       {"--duration", &live.duration, "Simulated from there under each backend [s]", above(0),
-        needs("--live")},
-       {"--trajectory-seconds", &live.trajectory_seconds, "Wall clock of one trajectory", above(0),
-        needs("--live")},
-       {"--packing-cache DIR", &live.packing_cache,
-        "Where deposited packings are kept (<output>/packings)", needs("--live")}},
+       {"--quiet", &options->is_quiet, "Says nothing but failures"}},
       [options] { return compare(*options); },
       {compare_diff_command(),
        merging_command(
            "merge", "Comparisons of several jobs, machines, days as one; ratios within a machine",
            "results/merged", merge),
-       merging_command("ranking",
-                       "Who solves what, how fast, and whether the order holds: a page and a table",
+       merging_command("ranking", "Who solves what, and how fast: a page and a table",
                        "results/ranking", rank),
        collect_command()}};
+  const std::vector<Word> more = live_words(options->live);
+  command.words.insert(command.words.end(), more.begin(), more.end());
+  return command;
 }
 
 }  // namespace ballast

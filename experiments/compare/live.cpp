@@ -99,8 +99,9 @@ void append_frame(const MotionState& state, int grains, Trajectory& trajectory) 
 void step_on(const LiveOptions& options, Scene scene, Start start, const ComparedSolver& solver,
              Trajectory& trajectory) {
   scene.solver.name = solver.name;
-  scene.solver.tolerance = trajectory.tolerance;
-  scene.solver.max_iterations = trajectory.max_iterations > 0 ? trajectory.max_iterations : 1 << 30;
+  const bool has_count = trajectory.iterations > 0;
+  scene.solver.tolerance = has_count ? 1e-12 : trajectory.tolerance;  // never reached
+  scene.solver.max_iterations = has_count ? trajectory.iterations : 1 << 30;
   scene.solver.max_seconds = options.max_seconds;
   scene.solver.threads = options.threads;
   TimeStepper stepper(start.system, scene, start.system.first_driven_wall());
@@ -151,7 +152,7 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
                          Trajectory trajectory) {
   const std::string numbers = printed(
       "|%.17g %.17g %.17g %.17g %d %d", trajectory.tolerance, options.duration, options.max_seconds,
-      options.trajectory_seconds, trajectory.max_iterations, options.threads);
+      options.trajectory_seconds, trajectory.iterations, options.threads);
   const fs::path file =
       options.folder / "trajectories" /
       (content_key("trajectory 4|" + binary + '|' + start.key + '|' + solver.name + numbers) +
@@ -171,20 +172,6 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
   return trajectory;
 }
 
-int reference_of(const std::vector<Trajectory>& trajectories) {
-  int best = -1;
-  double least = HUGE_VAL;
-  for (size_t k = 0; k < trajectories.size(); ++k) {
-    const Trajectory& t = trajectories[k];
-    if (!t.is_complete() || t.law != name_of(ContactLaw::coulomb)) continue;
-    const double error = statistics(record_column(t.steps, &StepRecord::error_rms)).mean;
-    if (!(error < least)) continue;
-    least = error;
-    best = static_cast<int>(k);
-  }
-  return best;
-}
-
 std::string command_of(const LiveOptions& options) {
   std::string command = "ballast compare --live " + shell_word(options.scene);
   for (const std::string& one : options.overrides) command += " --set " + shell_word(one);
@@ -194,11 +181,32 @@ std::string command_of(const LiveOptions& options) {
 
 }  // namespace
 
+double Trajectory::mean_error() const {
+  double sum = 0.0;
+  for (const StepRecord& step : steps) sum += step.error_rms;
+  return sum / static_cast<double>(steps.size());
+}
+
+std::string Trajectory::backend() const {
+  return solver + (law == name_of(ContactLaw::coulomb) ? "" : " (" + law + ")");
+}
+
 std::string Trajectory::label() const {
-  return solver +
-         (max_iterations > 0 ? printed(" %d iterations", max_iterations)
-                             : printed(" %g", tolerance)) +
-         (law == name_of(ContactLaw::coulomb) ? "" : " (" + law + ")");
+  return backend() +
+         (iterations > 0 ? printed(" %d iterations", iterations) : printed(" %g", tolerance));
+}
+
+int reference_of(const std::vector<Trajectory>& trajectories) {
+  int best = -1;
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < trajectories.size(); ++k) {
+    const Trajectory& t = trajectories[k];
+    const bool is_exact = t.law == name_of(ContactLaw::coulomb);
+    if (!t.is_complete() || !is_exact || !(t.mean_error() < least)) continue;
+    least = t.mean_error();
+    best = static_cast<int>(k);
+  }
+  return best;
 }
 
 std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference) {
@@ -225,8 +233,8 @@ LiveComparison run_live(const LiveOptions& options,
   std::vector<Trajectory> wanted;
   for (const double tolerance : options.tolerances) wanted.emplace_back().tolerance = tolerance;
   for (const int count : options.iterations) {
-    wanted.emplace_back().max_iterations = count;
-    wanted.back().tolerance = 1e-12;  // never reached
+    wanted.emplace_back().iterations = count;
+    wanted.back().tolerance = not_known;
   }
   bool goes_on = true;
   for (Trajectory& trajectory : wanted)

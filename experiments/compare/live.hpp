@@ -21,15 +21,22 @@ struct Trajectory {
   static constexpr const char* complete = "complete";
 
   std::string solver, law;
-  double tolerance = 0.0;  ///< natural map rms, over the comparison's velocity scale
-  int max_iterations = 0;  ///< of one solve, the limit; 0: none
+  double tolerance = 0.0;  ///< natural map rms, over the comparison's velocity scale; NaN: none
+  int iterations = 0;      ///< of every solve, whatever the error; 0: as many as it takes
   std::string ended;       ///< complete, or why not: "time limit", "failed", a backend's own words
   std::vector<StepRecord> steps;
   std::vector<double> frame_times;         ///< [s]
   std::vector<Eigen::VectorXd> positions;  ///< centres of all grains, 3 each [m]; one per frame
   bool is_complete() const { return ended == complete; }
-  std::string label() const;  ///< "pgs 0.0001", "nncg 50 iterations"
+  /// The judge's, rms over contacts [m/s]. Not finite where that of a step is not, or without
+  /// steps.
+  double mean_error() const;
+  std::string backend() const;  ///< "pgs", "sap (convex_relaxation)"
+  std::string label() const;    ///< "pgs 0.0001", "nncg 50 iterations"
 };
+
+/// Of exact law and complete, the one of the least mean error, first listed; -1: there is none.
+int reference_of(const std::vector<Trajectory>& trajectories);
 
 /// rms over grains of the distance from the reference at each frame that both have [m].
 std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference);
@@ -57,19 +64,18 @@ struct LiveComparison {
   Scene scene;
   double velocity_scale = 1.0;  ///< [m/s]: tolerances are relative to it
   bool has_driven_wall = false;
-  int reference = -1;  ///< index of the reference solution: exact law, complete, least mean error,
-                       ///< first listed; -1: none
+  int reference = -1;  ///< reference_of(trajectories)
   std::vector<Trajectory> trajectories;
   const Trajectory* reference_trajectory() const {
     return reference < 0 ? nullptr : &trajectories[static_cast<size_t>(reference)];
   }
-  /// Of the command line, without --solvers and --tolerances: what makes them again.
+  /// Of the command line, without --solvers, --tolerances and --iterations: what makes them again.
   std::string command;
 };
 
-/// Steps every backend to every tolerance in a child process of its own; trajectories that are
-/// there are not made again. `said` hears of each; returning false stops. Throws SceneFileError,
-/// Error.
+/// Steps every backend to every tolerance, and by every number of iterations, in a child process of
+/// its own; trajectories that are there are not made again. `said` hears of each; returning false
+/// stops. Throws SceneFileError, Error.
 LiveComparison run_live(const LiveOptions& options,
                         const std::function<bool(const Trajectory&)>& said);
 

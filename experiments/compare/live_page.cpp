@@ -4,7 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <map>
+#include <set>
+#include <utility>
 
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/measure/curve_fit.hpp"
@@ -35,6 +36,7 @@ double last_solid_fraction(const Trajectory& t) {
 
 /// The share of the steps whose error is above the tolerance.
 double missed_share(const Trajectory& t, const LiveComparison& c) {
+  if (t.iterations > 0) return not_known;  // it has none
   const double bound = t.tolerance * c.velocity_scale, count = static_cast<double>(t.steps.size());
   const auto is_missed = [&](const StepRecord& s) { return !(s.error_rms <= bound); };
   return static_cast<double>(std::count_if(t.steps.begin(), t.steps.end(), is_missed)) / count;
@@ -56,7 +58,7 @@ using T = const Trajectory&;
 using C = const LiveComparison&;
 constexpr LiveNumber shown_numbers[] = {
     {"error_mean", "error, mean", "", 1.0, 3,
-     [](T t, C c) { return over_steps(t, &StepRecord::error_rms).mean / c.velocity_scale; }},
+     [](T t, C c) { return t.mean_error() / c.velocity_scale; }},
     {"error_max", "worst", "", 1.0, 3,
      [](T t, C c) { return over_steps(t, &StepRecord::error_rms).max / c.velocity_scale; }},
     {"missed", "above tolerance", "%", 100.0, 3, missed_share},
@@ -84,23 +86,29 @@ constexpr LiveNumber shown_numbers[] = {
      [](T t, C) { return 1e3 * over_steps(t, &StepRecord::seconds_solve).mean; }},
     {"distance_end", "distance", "µm", 1e6, 3, last_distance}};
 
-/// A backend's colour; the tightest tolerance is a whole line, looser ones have shorter dashes.
+/// Those of some trajectory, in their order.
+std::vector<std::string> backends_of(const LiveComparison& comparison) {
+  std::vector<std::string> backends;
+  for (const Trajectory& t : comparison.trajectories)
+    if (std::ranges::find(backends, t.backend()) == backends.end()) backends.push_back(t.backend());
+  return backends;
+}
+
+/// A backend's colour; the tightest tolerance is a whole line, looser ones and numbers of
+/// iterations have shorter dashes.
 Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& trajectory) {
-  std::vector<std::string> solvers;
-  std::vector<double> tolerances;
-  for (const Trajectory& t : comparison.trajectories) {
-    if (std::ranges::find(solvers, t.solver) == solvers.end()) solvers.push_back(t.solver);
-    if (std::ranges::find(tolerances, t.tolerance) == tolerances.end())
-      tolerances.push_back(t.tolerance);
-  }
-  std::sort(tolerances.begin(), tolerances.end());
-  const auto place = [](const auto& values, const auto& value) {
-    return static_cast<size_t>(std::ranges::find(values, value) - values.begin());
+  const std::vector<std::string> backends = backends_of(comparison);
+  // tolerances from the tightest on, then iterations from the most on
+  const auto limit_of = [](const Trajectory& t) {
+    return t.iterations > 0 ? std::pair(1, -1.0 * t.iterations) : std::pair(0, t.tolerance);
   };
-  Curve curve = backend_curve(place(solvers, trajectory.solver), trajectory.label());
-  const size_t looseness = place(tolerances, trajectory.tolerance);
+  std::set<std::pair<int, double>> limits;
+  for (const Trajectory& t : comparison.trajectories) limits.insert(limit_of(t));
+  const auto backend = std::ranges::find(backends, trajectory.backend()) - backends.begin();
+  const auto looseness = std::distance(limits.begin(), limits.find(limit_of(trajectory)));
+  Curve curve = backend_curve(static_cast<size_t>(backend), trajectory.label());
   curve.dashed = looseness > 0;
-  curve.fineness = static_cast<int>(std::clamp<size_t>(looseness, 1, 3)) - 1;
+  curve.fineness = static_cast<int>(std::clamp<std::ptrdiff_t>(looseness, 1, 3)) - 1;
   curve.width = looseness == 0 ? 2.0 : 1.6;
   return curve;
 }
@@ -162,31 +170,27 @@ page::Table numbers_table(const LiveComparison& comparison) {
   return table;
 }
 
-/// Error over cost: a line with marks for each backend.
-Figure accuracy_figure(const LiveComparison& comparison) {
-  Panel panel{.x_label = "cost of a simulated second [s]",
-              .y_label = "error, mean over steps [g h]",
+/// Error over cost, a line for each backend; no panel where nothing is known.
+std::vector<Panel> accuracy_panels(const LiveComparison& comparison) {
+  Panel panel{.x_label = page::marked("cost of a simulated second  (s)"),
+              .y_label = "error, relative, mean over steps",
               .log_x = true,
               .log_y = true};
-  std::map<std::string, std::vector<std::pair<double, double>>> lines;
-  for (const Trajectory& t : comparison.trajectories)
-    if (const double error = over_steps(t, &StepRecord::error_rms).mean; error > 0.0)
-      if (t.is_complete())
-        lines[t.solver].emplace_back(mean_step_seconds(t) / comparison.scene.step,
-                                     error / comparison.velocity_scale);
-  for (auto& [solver, points] : lines) {
+  const std::vector<std::string> backends = backends_of(comparison);
+  for (size_t k = 0; k < backends.size(); ++k) {
+    std::vector<std::pair<double, double>> points;
+    for (const Trajectory& t : comparison.trajectories)
+      if (const double error = t.mean_error() / comparison.velocity_scale;
+          t.backend() == backends[k] && t.is_complete() && error > 0.0 && std::isfinite(error))
+        points.emplace_back(mean_step_seconds(t) / comparison.scene.step, error);
+    if (points.empty()) continue;
     std::sort(points.begin(), points.end());
-    Curve curve = backend_curve(panel.curves.size() / 2, solver);
-    for (const auto& [x, y] : points) curve.add(x, y);
-    panel.curves.push_back(curve);
-    curve.title = {};
-    curve.mark = Mark::points;
+    Curve curve = backend_curve(k, backends[k]);
+    curve.mark = Mark::marked_line;
+    for (const auto& [cost, error] : points) curve.add(cost, error);
     panel.curves.push_back(std::move(curve));
   }
-  panel.lines.push_back({1e-3, "1e-3", false, Ink::grey});
-  Figure figure{.name = "live_accuracy", .title = "Error against the cost of a simulated second"};
-  if (!panel.curves.empty()) figure.panels = {std::move(panel)};
-  return figure;
+  return panel.curves.empty() ? std::vector<Panel>() : std::vector{std::move(panel)};
 }
 
 /// "steps-pgs_0_0001.csv"
@@ -200,13 +204,15 @@ std::span<const LiveNumber> live_numbers() { return shown_numbers; }
 
 std::string live_csv(const LiveComparison& comparison) {
   CsvWriter csv;
-  for (const char* name : {"solver", "law", "tolerance", "ended", "steps"}) csv.add(name);
+  for (const char* name : {"solver", "law", "tolerance", "iterations", "ended", "steps"})
+    csv.add(name);
   for (const LiveNumber& number : shown_numbers) csv.add(number.name);
   csv.end_row();
   for (const Trajectory& t : comparison.trajectories) {
     csv.add(t.solver);
     csv.add(t.law);
     csv.add(t.tolerance, 6);
+    csv.add(long{t.iterations});
     csv.add(t.ended);
     csv.add(static_cast<long>(t.steps.size()));
     for (const LiveNumber& number : shown_numbers) csv.add(number.of(t, comparison), 9);
@@ -270,7 +276,10 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
   add("live_solid_fraction", "Solid fraction", "solid fraction", false,
       column(&R::solid_fraction, 1.0));
   add("live_cost", "Cost", "wall clock of the solver  (s)", false, line_of_cost);
-  pictures.push_back({accuracy_figure(comparison), {page::words("live_accuracy.caption")}});
+  pictures.push_back({{.name = "live_accuracy",
+                       .title = "Error against the cost of a simulated second",
+                       .panels = accuracy_panels(comparison)},
+                      {page::words("live_accuracy.caption")}});
   return pictures;
 }
 
@@ -284,9 +293,9 @@ void write_live_page(const std::filesystem::path& folder, const LiveComparison& 
        "Side by side",
        {page::words("live.table", {{"scale", page::quantity(comparison.velocity_scale, "m/s")}}),
         numbers_table(comparison),
-        page::Listing{
-            comparison.command + " --solvers SOLVER --tolerances TOLERANCE --output results/again",
-            "Makes one of them again"}}});
+        page::Listing{comparison.command + " --solvers SOLVER --output results/again \\\n" +
+                          "  --tolerances TOLERANCE    # or none --iterations COUNT",
+                      "Makes one of them again"}}});
   page::Section figures{"figures", "Figures"};
   figures.add(live_figures(comparison));
   page.add(figures);

@@ -14,7 +14,7 @@ namespace ballast {
 /// What a trajectory came to in one number: a column of live.csv, and one of the page's table where
 /// it has a head.
 struct LiveNumber {
-  const char* name;  ///< of live.csv, in SI units; ms where it ends so
+  const char* name;  ///< of live.csv, in SI units, or ms as it says
   const char* head;  ///< of the page's column, in the notation of page::marked; null: none
   const char* unit;  ///< on the page
   double factor;     ///< from that of live.csv to the page's

@@ -1,8 +1,7 @@
 #pragma once
-// The order of backends by time over many problems, and how sure it is: over families, sizes and
-// tolerances (Kendall's tau), and over other problems of the same kind (bootstrap).
+// The order of backends by time over many problems, and how sure it is over other problems of the
+// same kind (bootstrap).
 
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,19 +27,12 @@ struct TriedCases {
 /// ones count for nothing.
 std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows, double shift = summary_shift);
 
-/// Some of them.
-struct CaseGroup {
-  const TriedCases* tried = nullptr;
-  std::vector<Eigen::Index> members = {};  ///< rows of log_seconds
-};
-
 /// The family without a captured case's phase: "shaken, active" -> "shaken".
 std::string world_of(const CompareRow& row);
 
 /// What cases of one run have in common: "shaken/25-1-step_0000050" -> "shaken/25-1-". They are
 /// alike, so the bootstrap draws runs, not cases.
 std::string run_of(const std::string& case_name);
-std::set<std::string> runs_of(const CaseGroup& group);
 
 /// A number, and 95 % of the bootstrap's: NaN with fewer than `fewest_runs` runs.
 struct Estimate {
@@ -48,12 +40,9 @@ struct Estimate {
 };
 inline constexpr int fewest_runs = 5, resamples = 200;
 
-/// The rank of each backend by its mean, 1 for the fastest; equal ones share their mean rank. No
-/// members: NaN. The draws are seeded: the same on every machine.
-std::vector<Estimate> ranks_of(const CaseGroup& group);
-
-/// Kendall's tau-b between the orders of two groups, of the backends that both have: 1 the same
-/// order, 0 none in common, -1 the opposite; NaN where one of the two has no order.
-Estimate agreement(const CaseGroup& a, const CaseGroup& b);
+/// The rank of each backend by its mean over `members`, rows of log_seconds: 1 for the fastest;
+/// equal ones share their mean rank. No members: NaN. The draws are seeded: the same on every
+/// machine.
+std::vector<Estimate> ranks_of(const TriedCases& tried, const std::vector<Eigen::Index>& members);
 
 }  // namespace ballast

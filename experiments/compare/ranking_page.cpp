@@ -52,13 +52,12 @@ std::string verdicts_of(const BackendSummary& s) {
   return text;
 }
 
-/// Open cases of a kind, or the held ones.
-CaseGroup group_of(const TriedCases& tried, const std::string& kind, bool held = false) {
-  CaseGroup group{&tried, {}};
+/// Rows of log_seconds.
+std::vector<Eigen::Index> open_cases(const TriedCases& tried) {
+  std::vector<Eigen::Index> open;
   for (size_t c = 0; c < tried.cases.size(); ++c)
-    if (is_open(*tried.cases[c]) != held && is_of(*tried.cases[c], kind))
-      group.members.push_back(static_cast<Eigen::Index>(c));
-  return group;
+    if (is_open(*tried.cases[c])) open.push_back(static_cast<Eigen::Index>(c));
+  return open;
 }
 
 page::Values words_for(const TriedCases& tried) {
@@ -102,8 +101,6 @@ class Ranking {
     page.add(order);
     page.add({"families", "The problems", {page::words("ranking.families"), problems()}});
     page.add(each);
-    page.add(
-        {"stability", "Does the order hold?", {page::words("ranking.stability"), stability()}});
     page.add(failures);
     page.answers.are_given = true;
     return page;
@@ -157,7 +154,7 @@ class Ranking {
   /// All tables of one start and tolerance, with the backends in their order.
   void add_tables(const TriedCases& tried, page::Section& order, page::Section& each,
                   page::Section& failures) const {
-    const std::vector<Estimate> ranks = ranks_of(group_of(tried, everything));
+    const std::vector<Estimate> ranks = ranks_of(tried, open_cases(tried));
     std::vector<std::pair<double, size_t>> by_rank;
     for (size_t s = 0; s < ranks.size(); ++s)
       by_rank.emplace_back(std::isnan(ranks[s].value) ? HUGE_VAL : ranks[s].value, s);
@@ -241,31 +238,6 @@ class Ranking {
            page::exact(quantile(contacts, 1.0)), page::number(ratio, 2),
            page::quantity(
                100.0 * static_cast<double>(number) / static_cast<double>(contacts.size()), "%")});
-    }
-    return table;
-  }
-
-  /// The order of all open problems beside that of some, of the held ones, and of other settings.
-  page::Table stability() const {
-    page::Table table = page::words_table("ranking.stability-table");
-    table.is_number = {false, false, true, true, true, false};
-    for (const TriedCases& tried : tried_) {
-      const auto add = [&](const std::string& what, const CaseGroup& some) {
-        if (some.members.empty()) return;
-        const std::vector<Estimate> ranks = ranks_of(some);
-        const auto first = std::ranges::min_element(ranks, {}, &Estimate::value) - ranks.begin();
-        const Estimate tau = agreement(group_of(tried, everything), some);
-        page::Text value = page::number(tau.value, 2);
-        if (!std::isnan(tau.low)) value += " " + page::interval(tau.low, tau.high);
-        table.rows.push_back({printed("%g, %s", tried.tolerance, name_of(tried.start)), what,
-                              page::exact(some.members.size()), page::exact(runs_of(some).size()),
-                              value, some.tried->solvers[static_cast<size_t>(first)]});
-      };
-      add("held problems", group_of(tried, everything, true));
-      for (const TriedCases* other = &tried + 1; other != tried_.data() + tried_.size(); ++other)
-        add(printed("to %g, %s start", other->tolerance, name_of(other->start)),
-            group_of(*other, everything));
-      for (const std::string& kind : kinds_) add(kind, group_of(tried, kind));
     }
     return table;
   }

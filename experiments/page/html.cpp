@@ -62,9 +62,9 @@ void cut_all(std::string& text, std::string_view begin, std::string_view end) {
 }
 
 // The modules in the order in which they build upon each other.
-constexpr std::array common_modules = {"elements.js", "choice.js",  "numbers.js", "tables.js",
-                                       "palette.js",  "legends.js", "charts.js",  "window.js",
-                                       "pictures.js", "answers.js"};
+constexpr std::array common_modules = {"elements.js", "choice.js",   "numbers.js",
+                                       "tables.js",   "palette.js",  "legends.js",
+                                       "charts.js",   "pictures.js", "answers.js"};
 constexpr std::array replay_modules = {
     "vector.js", "colour.js", "data.js",  "camera.js", "shader.js", "mesh.js",  "stage.js",
     "shades.js", "marks.js",  "plots.js", "panel.js",  "errors.js", "input.js", "replay.js"};
@@ -100,6 +100,7 @@ Json curve_json(const Curve& curve) {
           {"mark", is_area                      ? "area"
                    : curve.mark == Mark::points ? "points"
                                                 : "line"},
+          {"marked", curve.mark == Mark::marked_line},
           {"x", short_numbers(curve.x)},
           {"y", short_numbers(curve.y)},
           {"error", short_numbers(curve.y_error)},

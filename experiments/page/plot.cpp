@@ -198,8 +198,10 @@ std::string plot_command(const std::string& block, const Curve& curve) {
                               : printed("'#%02lx", std::lround(transparency)) + rgb + "'";
   switch (curve.mark) {
     case Mark::line:
-      text += printed(" using 1:2 with lines lc rgb %s lw %.3g%s", ink.c_str(), curve.width,
-                      curve.dashed ? dashes[std::clamp(curve.fineness, 0, 2)] : "");
+    case Mark::marked_line:
+      text += printed(" using 1:2 with %s lc rgb %s lw %.3g%s",
+                      curve.mark == Mark::line ? "lines" : "linespoints pt 7 ps 0.6", ink.c_str(),
+                      curve.width, curve.dashed ? dashes[std::clamp(curve.fineness, 0, 2)] : "");
       break;
     case Mark::points:
       text += printed(" using %s pt %d ps %.3g lc rgb %s",

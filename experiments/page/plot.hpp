@@ -17,9 +17,10 @@ enum class Ink { black, blue, vermilion, green, orange, sky, purple, grey, light
 const char* rgb_of(Ink ink);  ///< "#rrggbb"
 
 enum class Mark {
-  line,    ///< NaN breaks it
-  points,  ///< filled, of the curve's shape; with y_error: bars
-  area,    ///< filled between y and y_low
+  line,         ///< NaN breaks it
+  marked_line,  ///< with a point at each value
+  points,       ///< filled, of the curve's shape; with y_error: bars
+  area,         ///< filled between y and y_low
 };
 
 enum class MarkShape { circle, triangle, square, diamond };

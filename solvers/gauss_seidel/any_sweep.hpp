@@ -25,18 +25,14 @@ class AnySweep {
     if (!problem.has_dynamics) {
       stored_.prepare(problem);
       chosen_ = &stored_;
-      return;
-    }
-    plan_.prepare(problem);
-    if (wide_.prepare(problem)) {
+    } else if (plan_.prepare(problem); wide_.prepare(problem)) {
       chosen_ = &wide_;
-      return;
+    } else {
+      scalar_.prepare(problem);
+      chosen_ = &scalar_;
     }
-    scalar_.prepare(problem);
-    chosen_ = &scalar_;
   }
 
-  ContactSweep& operator*() { return *chosen_; }
   ContactSweep* operator->() { return chosen_; }
 
  private:

@@ -53,7 +53,7 @@ function dataset_of(curve) {
     borderDash: dashes[curve.dash ?? 0],
     borderJoinStyle: "round",
     clip: 5,
-    pointRadius: is_points ? 4 : 0,
+    pointRadius: is_points || curve.marked ? 4 : 0,
     pointStyle: curve.dash ? "rectRot" : "circle",
     pointHoverRadius: 6,
     pointHoverBackgroundColor: colour,

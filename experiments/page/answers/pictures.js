@@ -16,8 +16,7 @@ function range_of(axis, places) {
 function panel_figure(picture, panel) {
   const curve_of = (curve) => ({
     ...curve,
-    points: curve.x.map((x, k) => ({ x, y: curve.y[k], error: curve.error[k],
-                                     low: curve.low[k] }))
+    points: curve.x.map((x, k) => ({ x, y: curve.y[k], error: curve.error[k], low: curve.low[k] }))
       // where a curve has no value it is broken
       .map((point, k, all) => (point.x === null ? { x: all[k - 1]?.x ?? null, y: null } : point))
       .filter(({ x }) => x !== null && (!panel.x.log || x > 0))

@@ -70,6 +70,7 @@ TEST_CASE("a wrong command line is exit code 2") {
       {{"compare", "p.hdf5", "--solvers", "pgs,"}, "--solvers"},
       {{"compare", "p.hdf5", "--tolerances", "1e-4,0"}, "--tolerances"},
       {{"compare", "p.hdf5", "--tolerances", ""}, "--tolerances"},
+      {{"compare", "p.hdf5", "--tolerances", "none"}, "--iterations COUNT"},
       {{"compare", "p.hdf5", "--starts", "hot"}, "'hot' is no start"},
       {{"compare", "p.hdf5", "--measure", "feeling"}, "feeling"},
       {{"compare", "p.hdf5", "--repeats", "0"}, "--repeats"},

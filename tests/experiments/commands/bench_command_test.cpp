@@ -88,11 +88,11 @@ TEST_CASE("a page of results is measured by its own commands, once, and made aga
   REQUIRE(first.status == 0);
   CHECK_THAT(first.output, Catch::Contains("step/1") && Catch::Contains("other/2"));
   const std::string told = read_whole_file(folder.path() / "all" / "results.md");
-  CHECK_THAT(told, Catch::Contains("|100|\n|3|\n|100|\n") &&
+  const std::string shares = "|100|\n|3|\n|100|\n";
+  CHECK_THAT(told, Catch::Contains(shares) &&
                        Catch::Contains("`ballast compare known:contacts=12,bodies=6,count=3 "));
   // two backends: what one is over the other is one over what the other is
-  std::istringstream cells(
-      told.substr(told.find("|100|\n|3|\n|100|\n") + std::string("|100|\n|3|\n|100|\n").size()));
+  std::istringstream cells(told.substr(told.find(shares) + shares.size()));
   double pgs = 0.0, nncg = 0.0;
   cells >> pgs >> nncg;
   CHECK(pgs * nncg == Approx(1.0).epsilon(0.03));

@@ -61,7 +61,7 @@ TEST_CASE("A ranking is a page and a table, with the held part apart") {
   const std::string page = read_whole_file(folder.path() / "index.html");
   check_page(without_scripts(page));
   for (const char* words : {"2 backends on 30 problems.", "&lt;wild&gt;", "10 crashed",
-                            "&lt;wild&gt; (10 of 10)", "held problems", "1 to 10 contacts"})
+                            "&lt;wild&gt; (10 of 10)", "held: solved", "1 to 10 contacts"})
     CHECK_THAT(page, Catch::Contains(words));
   CHECK_THAT(read_whole_file(folder.path() / "ranking.md"),
              Catch::Contains("2 backends on 30 problems.") && Catch::Contains("| sure |"));

@@ -1,10 +1,11 @@
-// Arches of dry stones: more contacts than their bodies' unknowns fix, each one pressed. Newton's
-// endgame needs many steps there, and arrives.
+// Arches of dry stones: more contacts than their bodies' unknowns fix. Newton's endgame needs many
+// steps there, and arrives.
 
 #include <cmath>
 #include <numbers>
 
 #include "experiments/step/time_step.hpp"
+#include "platform/text.hpp"
 #include "problems/scene/scene_file.hpp"
 #include "solvers/backends/backends.hpp"
 #include "tests/catch.hpp"
@@ -21,6 +22,8 @@ struct Arch {
   double thickness, friction;
 };
 
+std::string exact_text(double number) { return printed("%.17g", number); }
+
 /// The eight corners of the stone at the crown.
 std::string corners(const Arch& arch) {
   const double half = std::numbers::pi / 2.0 / arch.stones;
@@ -28,8 +31,8 @@ std::string corners(const Arch& arch) {
   for (const double y : {-0.15, 0.15})
     for (const double r : {1.0 - arch.thickness / 2.0, 1.0 + arch.thickness / 2.0})
       for (const int side : {-1, 1})
-        points += "[" + std::to_string(side * r * std::sin(half)) + ", " + std::to_string(y) +
-                  ", " + std::to_string(r * std::cos(half)) + "],";
+        points += "[" + exact_text(side * r * std::sin(half)) + ", " + exact_text(y) + ", " +
+                  exact_text(r * std::cos(half)) + "],";
   return points;
 }
 
@@ -37,16 +40,16 @@ Scene scene_of(const Arch& arch) {
   const double turn = 180.0 / arch.stones;  // of one stone [degrees]
   const TemporaryFolder folder;
   return read_scene(folder.write(
-      "arch.toml", "[scene]\ntitle = 'arch'\nstep = 1e-3\nduration = 0.01\n[contact]\nfriction = " +
-                       std::to_string(arch.friction) + "\n[[body]]\nshape = 'hull'\npoints = [" +
-                       corners(arch) + "]\norientation = { axis = [0, 1, 0], angle_degrees = " +
-                       std::to_string(turn / 2.0 - 90.0) +
-                       " }\nrepeat = [ { count = " + std::to_string(arch.stones) +
-                       ", axis = [0, 1, 0], angle_degrees = " + std::to_string(turn) +
-                       " } ]\ndensity = 2400.0\n[[body]]\nshape = 'box'\nsize = [0.6, 0.5, 0.1]\n"
-                       "position = [-1, 0, -0.05]\nlocked = ['x', 'y', 'z', 'rotation']\n"
-                       "repeat = [ { count = 2, translation = [2, 0, 0] } ]\n"
-                       "[solver]\ntolerance = 1e-6\nmax_iterations = 20000\n"));
+      "arch.toml",
+      "[scene]\ntitle = 'arch'\nstep = 1e-3\nduration = 0.01\n[contact]\nfriction = " +
+          exact_text(arch.friction) + "\n[[body]]\nshape = 'hull'\npoints = [" + corners(arch) +
+          "]\norientation = { axis = [0, 1, 0], angle_degrees = " + exact_text(turn / 2.0 - 90.0) +
+          " }\nrepeat = [ { count = " + exact_text(arch.stones) +
+          ", axis = [0, 1, 0], angle_degrees = " + exact_text(turn) +
+          " } ]\ndensity = 2400.0\n[[body]]\nshape = 'box'\nsize = [0.6, 0.5, 0.1]\n"
+          "position = [-1, 0, -0.05]\nlocked = ['x', 'y', 'z', 'rotation']\n"
+          "repeat = [ { count = 2, translation = [2, 0, 0] } ]\n"
+          "[solver]\ntolerance = 1e-6\nmax_iterations = 20000\n"));
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST_CASE("grains are swept in groups, anything else contact by contact") {
   AnySweep sweep;
   const auto is_wide = [&](const FrictionProblem& problem) {
     sweep.prepare(problem);
-    return dynamic_cast<WideSweep*>(&*sweep) != nullptr;
+    return dynamic_cast<WideSweep*>(sweep.operator->()) != nullptr;
   };
   CHECK(is_wide(samples::grain_problem()));
   CHECK_FALSE(is_wide(oracle::mixed_problem()));

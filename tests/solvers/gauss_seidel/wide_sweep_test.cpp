@@ -27,8 +27,8 @@ Impulses start_of(const FrictionProblem& problem) {
 }
 
 /// An order that gives what groups give: the plan's, but in each part contacts on the driven wall
-/// come last. Where no grain's second contact with the wall waits for a later group: else the
-/// others pass it.
+/// come last. It holds while no grain has a second contact with the wall, which would wait for a
+/// later group.
 std::vector<int> group_order(const SweepPlan& plan, const FrictionProblem& problem) {
   const DynamicsForm& d = problem.dynamics;
   std::vector<int> order = plan.contacts();
