@@ -132,9 +132,9 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
 
 /// Steps a packing, and says what they took: the child's work.
 void measure_packing(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
-  const auto add = [&](const std::string& name, const char* unit, std::vector<double> values) {
-    const std::string group = thread_words(point.threads) + printed(", %.0f grains", point.grains);
-    point.measured.push_back(measurement_of(group, name, unit, {quantile(values, 0.5)}));
+  const std::string group = thread_words(point.threads) + printed(", %.0f grains", point.grains);
+  const auto add = [&](const char* name, const char* unit, std::vector<double> values) {
+    point.measured.push_back(measurement_of(group, name, unit, std::move(values)));
   };
   const double before = peak_memory_MB(), ns = 1e9 / point.grains;
   PreparedRun start = tiled_start(box, point.nx, point.ny);
@@ -149,12 +149,11 @@ void measure_packing(const DepositedBox& box, const ScalingOptions& options, Sca
   }
   std::vector<double> whole;
   for (const StepRecord& step : steps) whole.push_back(ns * step_seconds(step));
-  const double contacts = steps.back().contacts;
-  add("contacts", "contacts", {contacts});
+  add("contacts", "contacts", record_column(steps, &StepRecord::contacts));
   add("detect", "ns/grain", record_column(steps, &StepRecord::seconds_detect, ns));
   add("assemble", "ns/grain", record_column(steps, &StepRecord::seconds_assemble, ns));
   add("solve", "ns/grain", record_column(steps, &StepRecord::seconds_solve, ns));
-  add("step", "ns/grain", whole);
+  add("step", "ns/grain", std::move(whole));
   add("memory", "B/grain", {1048576.0 * (peak_memory_MB() - before) / point.grains});
 }
 

@@ -82,14 +82,14 @@ struct ScalingOptions {
 };
 
 /// What was measured on one packing with one number of threads: by phase ns per grain and step,
-/// medians of wall clock; memory beyond what the process had before. Group "<threads> threads,
-/// <grains> grains".
+/// wall clock; memory beyond what the process had before. Group "<threads> threads, <grains>
+/// grains".
 struct ScalingPoint {
   int threads = 1, nx = 1, ny = 1;
   double grains = 0.0;
   std::vector<Measurement> measured;
 
-  /// NaN: not measured.
+  /// The median. NaN: not measured.
   double value(const std::string& name) const;
 };
 
