@@ -150,6 +150,7 @@ void measure_packing(const DepositedBox& box, const ScalingOptions& options, Sca
   std::vector<double> whole;
   for (const StepRecord& step : steps) whole.push_back(ns * step_seconds(step));
   add("contacts", "contacts", record_column(steps, &StepRecord::contacts));
+  add("iterations", "iterations", record_column(steps, &StepRecord::iterations));
   add("detect", "ns/grain", record_column(steps, &StepRecord::seconds_detect, ns));
   add("assemble", "ns/grain", record_column(steps, &StepRecord::seconds_assemble, ns));
   add("solve", "ns/grain", record_column(steps, &StepRecord::seconds_solve, ns));
