@@ -104,8 +104,7 @@ ExitCode run_scene(RunRequest& request) {
 struct PlanRequest {
   fs::path plan;
   PlanOptions running;
-  bool dry_run = false;
-  fs::path snakemake;
+  bool dry_run = false, commands = false;
 };
 
 /// What would be run.
@@ -131,15 +130,10 @@ ExitCode run_planned(PlanRequest options) {
     list_runs(plan, options.running);
     return ExitCode::ok;
   }
-  if (!options.snakemake.empty()) {
-    write_snakemake(plan, options.plan, options.running, own_program(), options.snakemake);
-    std::cout << "cd " << shell_word(fs::absolute(options.snakemake).string())
-              << "\n  snakemake -s Snakefile --profile slurm   on a cluster with Slurm\n"
-              << "  snakemake -s Snakefile --cores 4         on this machine" << std::endl;
-    return ExitCode::ok;
-  }
   require_own_folder(options.running.results, {"runs", "packings"});
-  return run_plan(plan, options.running);
+  if (!options.commands) return run_plan(plan, options.running);
+  for (const std::string& line : plan_commands(plan, options.running)) std::cout << line << '\n';
+  return ExitCode::ok;
 }
 
 struct PaperOptions {
@@ -302,9 +296,8 @@ Command plan_command() {
            {"--only PATTERN", &running.only, "Only runs whose names match: 'nu-*seed=1'"},
            {"--dry-run", &options->dry_run,
             "Lists the runs, their keys and how far they are; runs nothing"},
-           {"--snakemake DIR", &options->snakemake,
-            "Runs nothing, but writes the plan as a Snakefile with a profile for Slurm into this "
-            "folder",
+           {"--commands", &options->commands,
+            "Runs nothing, but prints what is to be done as lines for a shell, packings first",
             excludes("--dry-run")},
            {"--max-seconds S", &running.max_seconds,
             "Wall clock after which everything writes a checkpoint and the program exits with 3",

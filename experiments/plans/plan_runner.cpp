@@ -18,6 +18,7 @@
 #include "platform/program.hpp"
 #include "platform/row_log.hpp"
 #include "platform/text.hpp"
+#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
 
@@ -27,6 +28,10 @@ fs::path run_folder(const fs::path& results, const PlannedRun& run) {
   return results / "runs" / run.key;
 }
 fs::path packing_folder(const fs::path& results) { return results / "packings"; }
+
+static void make_folders(const fs::path& results) {
+  for (const char* name : {"runs", "packings", "logs"}) create_folder(results / name);
+}
 
 std::vector<std::string> run_arguments(const fs::path& results, const PlannedRun& run,
                                        bool deposit_only) {
@@ -166,6 +171,21 @@ std::vector<Task> make_tasks(const fs::path& results, std::vector<PlannedRun> ru
       task.deposit = deposit->second;
   }
   return tasks;
+}
+
+std::vector<std::string> plan_commands(const Plan& plan, const PlanOptions& options) {
+  const auto absolute = [](const fs::path& path) { return fs::absolute(path).lexically_normal(); };
+  const fs::path results = absolute(options.results);
+  std::vector<PlannedRun> runs = select(plan, options.only);
+  for (PlannedRun& run : runs) run.scene = absolute(find_scene(run.scene));
+  std::vector<std::string> lines;
+  for (Task& task : make_tasks(results, runs)) {
+    if (task.state == TaskState::finished) continue;
+    task.arguments.insert(task.arguments.begin(), own_program().string());
+    lines.push_back(shell_line(task.arguments) + " >>" + shell_word(task.log.string()) + " 2>&1");
+  }
+  make_folders(results);
+  return lines;
 }
 
 namespace {
@@ -320,7 +340,7 @@ class Engine {
 ExitCode run_plan(const Plan& plan, const PlanOptions& options) {
   const std::vector<PlannedRun> chosen = select(plan, options.only);
   const InterruptGuard guard;
-  for (const char* name : {"runs", "packings", "logs"}) create_folder(options.results / name);
+  make_folders(options.results);
   const FileLock lock(options.results / "plan.lock", briefly);
   if (!lock.is_held())
     throw Error(options.results.string() + ": " + lock.holder() + " is running a plan there");

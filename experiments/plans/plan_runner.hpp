@@ -1,6 +1,6 @@
 #pragma once
 // Many runs in one folder of results: what there is to do, the engine that sees to it that it is
-// done, each run as a process of its own, and the same as jobs of a cluster.
+// done, each run as a process of its own, and the same as lines for a shell.
 //
 //   <results>/runs/<key>/   the runs
 //   <results>/packings/     packings, each deposited once
@@ -80,21 +80,10 @@ struct PlanOptions {
 /// and Error when another plan is run in the folder or it cannot be written.
 ExitCode run_plan(const Plan& plan, const PlanOptions& options);
 
-/// The same plan for a cluster: no scheduler of our own, but a Snakefile and a profile for Slurm.
-/// Writes into `folder`:
-///   Snakefile           one job per packing, then one per run; each calls the ballast program and
-///                       may die and be started again
-///   runs.json           what the jobs call; the last one is `ballast plan` with the plan's file,
-///                       which sees that everything is finished, and writes index.csv
-///   slurm/config.yaml   Snakemake's options (version 7) for Slurm
-///   slurm/status.sh     what became of a job
-///
-/// Of `options` the results and the runs to do. Paths are absolute: the folders of the results and
-/// of this one, the plan's file and `program` must be the same on all machines. Throws
-/// SceneFileError and Error.
-void write_snakemake(const Plan& plan, const std::filesystem::path& file,
-                     const PlanOptions& options, const std::filesystem::path& program,
-                     const std::filesystem::path& folder);
+/// The tasks that are not finished, as lines for a shell: of `options` the results and the runs to
+/// do. Paths are absolute. Each line may be run again, and in any order: a run waits for its
+/// packing or deposits it. Makes the empty folders. Throws SceneFileError and Error.
+std::vector<std::string> plan_commands(const Plan& plan, const PlanOptions& options);
 
 /// How far a plan is, on one line: "37 %  0 of 2 runs, 1 running". Runs that go on count by the
 /// steps in their logs, `work_before` is what was done when the plan was taken up, `seconds` ago.

@@ -51,7 +51,7 @@ TEST_CASE("no command writes over files of somebody's, and each may be repeated"
   const std::vector<std::pair<const char*, std::vector<std::string>>> commands = {
       {"README.md", {"paper", "report", "--rows", rows, "--output"}},
       {"article.md", {"paper", "article", "--rows", rows, "--output"}},
-      {"Snakefile", {"plan", plan, "--output", folder.path() / "runs", "--snakemake"}},
+      {"index.csv", {"plan", plan, "--output"}},
       {"step.json", {"bench", "step", "vibrated_box_small", "--output"}},
       {"results.md", {"bench", "all", "--rows", source + "numbers.csv", "--output"}},
   };

@@ -97,6 +97,32 @@ set = ["drive.frequency=30"]
   CHECK(is_finished(results, taken));
 }
 
+TEST_CASE("a plan's lines for a shell give the bits of the engine, part by part and in any order") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("plan.toml", small_plan), engine = folder.path() / "engine",
+                 results = folder.path() / "two 'words'";
+  const Plan plan = read_plan(file);
+  REQUIRE(run_plan_file(file, engine).succeeded());
+  const auto lines_left = [&] {
+    return split(run_plan_file(file, results, {"--commands"}).output, '\n').size() - 1;
+  };
+  CHECK(lines_left() == 6);
+  CHECK(fs::is_empty(results / "runs"));
+  const auto run_lines = [&](const std::string& filter, std::vector<std::string> more) {
+    more.insert(more.begin(), {"plan", file, "--output", results, "--commands"});
+    return ballast_in_shell("\"$@\" | " + filter + " | xargs -P 2 -d '\\n' -n 1 sh -c", more)
+        .succeeded();
+  };
+  // Two runs of one packing: one line deposits it, the other waits.
+  CHECK(run_lines("grep -v deposit-only", {"--only", "*seed=1"}));
+  CHECK(lines_left() == 3);
+  CHECK(run_lines("tac", {}));
+  CHECK(lines_left() == 0);
+  CHECK(bits_of(plan, results) == bits_of(plan, engine));
+  CHECK_THAT(run_plan_file(file, results).output,
+             Catch::Contains("4 runs: 4 finished (4 of them before)"));
+}
+
 TEST_CASE("the time limit stops a plan with checkpoints, and the same command goes on") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("plan.toml", small_plan), results = folder.path() / "results";
