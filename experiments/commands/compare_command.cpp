@@ -202,14 +202,6 @@ bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
   return !InterruptGuard::requested();
 }
 
-std::vector<ComparedSolver> solvers_or_none(const std::string& list) {
-  return list == "none" ? std::vector<ComparedSolver>() : parse_solvers(list);
-}
-
-std::vector<double> tolerances_or_none(const std::string& list) {
-  return list == "none" ? std::vector<double>() : parse_tolerances(list);
-}
-
 constexpr const char* interrupted =
     "compare: interrupted; nothing is lost, the same command goes on";
 
@@ -322,14 +314,14 @@ Command compare_command() {
       "compare",
       "Backends on identical problems: accuracy against cost, figures, a page",
       {{"cases", &options->cases, "Problem files, folders, patterns, known:..., stress:..."},
-       {"--solvers", into(comparison.solvers, solvers_or_none, "all"),
+       {"--solvers", into(comparison.solvers, parse_solvers, "all"),
         "Names, separated by commas, or all, or none: programs alone"},
        {"--external NAME=COMMAND", &options->external,
         "Also a program that solves, or FILE.toml with a list (docs/manual/external.md)"},
        {"--startup-seconds", &options->program_limits.startup_seconds,
         "Wall clock that such a program may take beside --max-seconds, to start and read",
         at_least(0)},
-       {"--tolerances", into(comparison.tolerances, tolerances_or_none, "1e-4,1e-8"),
+       {"--tolerances", into(comparison.tolerances, parse_tolerances, "1e-4,1e-8"),
         "Separated by commas; none: only with --iterations"},
        {"--starts", into(comparison.starts, parse_starts, "cold"),
         "cold, warm or cold,warm; warm where a case has a warm start"},

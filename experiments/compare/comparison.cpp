@@ -271,6 +271,7 @@ std::string loaded_blas() {
 
 std::vector<ComparedSolver> parse_solvers(const std::string& list) {
   std::vector<ComparedSolver> solvers;
+  if (list == "none") return solvers;
   if (list == "all") {
     for (const SolverEntry& entry : solver_list())
       if (entry.make) solvers.push_back({entry.name, entry.law, entry.make});
@@ -301,6 +302,7 @@ std::vector<ComparedSolver> external_solvers(const std::vector<std::string>& wor
 
 std::vector<double> parse_tolerances(const std::string& list) {
   std::vector<double> tolerances;
+  if (list == "none") return tolerances;
   for (const std::string& word : words_of(list, "numbers > 0")) {
     const double value = parsed<double>(word).value_or(-1.0);
     if (!(value > 0.0) || !std::isfinite(value))

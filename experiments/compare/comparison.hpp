@@ -68,8 +68,8 @@ std::string loaded_blas();
 // The lists on the command lines of `ballast compare` and `ballast bench` -> settings. Everything
 // wrong is a std::invalid_argument that says what was expected.
 
-/// "pgs,nncg", or "all": every backend that was built. Throws UnknownSolver, MissingSolver for
-/// names.
+/// "pgs,nncg", "none", or "all": every backend that was built. Throws UnknownSolver, MissingSolver
+/// for names.
 std::vector<ComparedSolver> parse_solvers(const std::string& list);
 
 /// Programs that solve (experiments/external). Throws std::invalid_argument: also for the name of a
@@ -77,7 +77,7 @@ std::vector<ComparedSolver> parse_solvers(const std::string& list);
 std::vector<ComparedSolver> external_solvers(const std::vector<std::string>& words,
                                              const ExternalLimits& limits);
 
-/// "1e-4,1e-8": numbers > 0, sorted from loose to tight, each once.
+/// "1e-4,1e-8": numbers > 0, sorted from loose to tight, each once; or "none".
 std::vector<double> parse_tolerances(const std::string& list);
 
 /// "cold", "warm", "cold,warm".
