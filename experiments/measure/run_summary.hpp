@@ -1,22 +1,7 @@
 #pragma once
 // A run in numbers, computed once: what its page, the rows of a campaign (paper_data.hpp) and the
 // figures of the paper state. Pure functions of the record, each defined once. NaN: not known.
-//
-// clang-format off
-//   Delta x_max         largest rise of x above its running minimum in a period; end of the active
-//                       phase, sec. 3, Figs. 9-11
-//   v_max               largest inward velocity of the wall in a period; passive phase, sec. 4,
-//                       Fig. 9
-//   jamming position    least x after the rise, until the period's end; sec. 3
-//   net contraction     x at the period's begin minus x at its end; Fig. 3
-//   Delta rho_1         change of the solid fraction over a period, at the same phase of the load;
-//                       sec. 5, Fig. 12
-//   rho_0               solid fraction at t = 0.2 s; sec. 5
-//   compaction rate     (rho(t_b) - rho(t_a)) / (rho_0 (t_b - t_a)) over whole periods; Eq. 4,
-//                       Fig. 13
-//   Eq. 3's right side  m/(m + m_w) . m g/f_max . g/nu^2; Eq. 3, Fig. 11
-//   C of Eq. 3          Delta x_max over that
-// clang-format on
+// The table in docs/manual/paper.md defines them.
 //
 // Quantities of a period are means over the periods that count; which these are, wall_cycles says.
 // Delta rho_1 is a mean of differences, not the slope of a line through the periods' means: it
