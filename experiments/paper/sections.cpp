@@ -6,10 +6,9 @@
 #include <set>
 #include <stdexcept>
 
-#include <nlohmann/json.hpp>
-
 #include "experiments/page/html.hpp"
 #include "experiments/page/markdown.hpp"
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "platform/text.hpp"
@@ -58,14 +57,11 @@ std::vector<page::Text> origin_of(PaperData& data) {
   double steps = 0.0, seconds = 0.0;
   for (const PlannedRun& run : data.campaign()) {
     if (!data.has(run) || !seen.insert(run.key).second) continue;
-    const auto manifest = nlohmann::json::parse(
-        read_whole_file(data.folder(run.key) / "manifest.json"), nullptr, false);
-    if (!manifest.is_object()) continue;
-    ++commits[manifest.value("/ballast/commit"_json_pointer, "unknown")];
-    ++machines[manifest.value("/machine/cpu"_json_pointer, "unknown")];
+    const Manifest manifest = Manifest::read(RunFolder(data.folder(run.key)).manifest());
+    ++commits[manifest.commit()];
+    ++machines[manifest.machine()];
     steps += static_cast<double>(run.steps);
-    seconds += 1e-3 * manifest.value("/summary/ms_per_step"_json_pointer, 0.0) *
-               static_cast<double>(run.steps);
+    seconds += 1e-3 * manifest.summary_number("ms_per_step") * static_cast<double>(run.steps);
   }
   std::vector<page::Text> parts =
       parts_of(page::words("paper.origin", {{"finished", std::to_string(data.finished())},
