@@ -29,12 +29,15 @@ fs::path run_folder(const fs::path& results, const PlannedRun& run) {
 }
 fs::path packing_folder(const fs::path& results) { return results / "packings"; }
 
-static void make_folders(const fs::path& results) {
+namespace {
+
+void make_folders(const fs::path& results) {
   for (const char* name : {"runs", "packings", "logs"}) create_folder(results / name);
 }
 
+/// Arguments of the ballast program that begin or continue the run, or see to its packing.
 std::vector<std::string> run_arguments(const fs::path& results, const PlannedRun& run,
-                                       bool deposit_only) {
+                                       bool deposit_only = false) {
   std::vector<std::string> words{"run", run.scene};
   for (const std::string& text : run.overrides) words.insert(words.end(), {"--set", text});
   words.insert(words.end(), {"--packing-cache", packing_folder(results).string()});
@@ -45,6 +48,8 @@ std::vector<std::string> run_arguments(const fs::path& results, const PlannedRun
                  {"--output", run_folder(results, run).string(), "--continue", "--no-report"});
   return words;
 }
+
+}  // namespace
 
 long steps_in_log(const fs::path& run_folder) {
   const fs::path log = RunFolder(run_folder).steps_log();

@@ -23,10 +23,6 @@ namespace ballast {
 std::filesystem::path run_folder(const std::filesystem::path& results, const PlannedRun& run);
 std::filesystem::path packing_folder(const std::filesystem::path& results);
 
-/// Arguments of the ballast program that begin or continue the run, or see to its packing.
-std::vector<std::string> run_arguments(const std::filesystem::path& results, const PlannedRun& run,
-                                       bool deposit_only = false);
-
 /// "finished", "begun" or "waiting": what the run's folder says. Not finished where its manifest is
 /// damaged; the run itself then says what is wrong with it.
 std::string state_of(const std::filesystem::path& results, const PlannedRun& run);
