@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -65,6 +66,7 @@ ViewData view_to_draw(const ExportOptions& options) {
 /// Numbers of the first and last frame that are asked for.
 std::pair<size_t, size_t> chosen_frames(const ExportOptions& options, const ViewData& view) {
   const size_t count = view.frames.size();
+  if (options.all) return {0, count - 1};
   const size_t one =
       std::isnan(options.time) ? count - 1 : nearest_frame(view.frames, options.time);
   const auto chosen = options.frames.value_or(std::pair(one, one));
@@ -74,36 +76,37 @@ std::pair<size_t, size_t> chosen_frames(const ExportOptions& options, const View
   return chosen;
 }
 
-/// Every stored frame as a file of its own.
-ExitCode export_all(const ExportOptions& options) {
-  const ViewData view = view_to_draw(options);
-  if (is_picture(options)) {
-    if (options.output.has_parent_path()) create_folder(options.output.parent_path());
-    for (size_t k = 0; k < view.frames.size(); ++k)
-      write_whole_file(series_file(options.output, view.frames[k].step),
-                       still_png(view, {k}, options.still));
-  } else {
-    export_series(view.system, view.frames, view.contacts, options.output);
-  }
-  const MotionState &first = view.frames.front(), &last = view.frames.back();
-  std::cout << series_file(options.output, first.step).string() << " to "
-            << series_file(options.output, last.step).filename().string() << ": "
-            << view.frames.size() << " states from " << first.time << " s to " << last.time
-            << " s\n";
+ExitCode say(const std::string& files, const MotionState& first, const MotionState& last) {
+  const bool is_one = first.step == last.step;
+  std::cout << files << (is_one ? ": state at " : ": states from ") << first.time << " s, step "
+            << first.step;
+  if (!is_one) std::cout << ", to " << last.time << " s, step " << last.step;
+  std::cout << '\n';
   return ExitCode::ok;
 }
 
-/// Stored frames drawn without a display: one, or a picture that moves.
-ExitCode export_picture(const ExportOptions& options) {
+/// Stored frames: all, each as a file of its own, one, or some as a picture that moves.
+ExitCode export_frames(const ExportOptions& options) {
   const ViewData view = view_to_draw(options);
-  const std::vector<MotionState>& frames = view.frames;
   const auto [first, last] = chosen_frames(options, view);
-  std::vector<size_t> chosen;
-  for (size_t frame = first; frame <= last; ++frame) chosen.push_back(frame);
-  write_whole_file(options.output, still_png(view, chosen, options.still));
-  std::cout << options.output.string() << ": frames " << first << " to " << last << ", from "
-            << frames[first].time << " s to " << frames[last].time << " s\n";
-  return ExitCode::ok;
+  const auto write = [&](const fs::path& file, size_t from, size_t to) {
+    if (!is_picture(options)) return export_state(view.system, view.frames[from], file);
+    std::vector<size_t> chosen(to - from + 1);
+    std::iota(chosen.begin(), chosen.end(), from);
+    write_whole_file(file, still_png(view, chosen, options.still));
+  };
+  const MotionState &begin = view.frames[first], &end = view.frames[last];
+  const fs::path& file = options.output;
+  if (!options.all) {
+    write(file, first, last);
+    return say(file.string(), begin, end);
+  }
+  if (file.has_parent_path()) create_folder(file.parent_path());
+  for (size_t k = first; k <= last; ++k) write(series_file(file, view.frames[k].step), k, k);
+  if (file.extension() == ".vtp") write_series(view.frames, view.contacts, file);
+  return say(series_file(file, begin.step).string() + " to " +
+                 series_file(file, end.step).filename().string(),
+             begin, end);
 }
 
 /// The run's folder that a checkpoint, or one of its states, is in.
@@ -121,29 +124,20 @@ ExitCode export_run(const ExportOptions& options) {
   if (!is_there(options.source))
     throw Error(options.source.string() + ": no such run folder or checkpoint");
   const bool from_folder = is_folder(options.source);
-  const bool is_frame = options.frames || !std::isnan(options.time);
-  if (!from_folder && (is_frame || options.all || is_picture(options)))
+  if (options.all || options.frames || !std::isnan(options.time) || is_picture(options)) {
+    if (from_folder) return export_frames(options);
     throw Error(options.source.string() +
                 ": a checkpoint is one state: for frames and pictures give the run's folder");
-  if (options.all) return export_all(options);
-  if (is_picture(options)) return export_picture(options);
-  MechanicalSystem system;
-  MotionState state;
-  if (is_frame) {
-    ViewData view = run_view(options.source);
-    state = view.frames[chosen_frames(options, view).first];
-    system = std::move(view.system);
-  } else {
-    system = recorded_system(from_folder ? options.source : run_of(options.source), state);
-    if (!from_folder) state = read_checkpoint(options.source).state;
   }
+  MotionState state;
+  const MechanicalSystem system =
+      recorded_system(from_folder ? options.source : run_of(options.source), state);
+  if (!from_folder) state = read_checkpoint(options.source).state;
   if (state.pose.size() != system.bodies.size())
     throw Error(options.source.string() + ": holds " + std::to_string(state.pose.size()) +
                 " bodies, the scene beside it " + std::to_string(system.bodies.size()));
   export_state(system, state, options.output);
-  std::cout << options.output.string() << ": state at " << state.time << " s, step " << state.step
-            << '\n';
-  return ExitCode::ok;
+  return say(options.output.string(), state, state);
 }
 
 struct ViewOptions {

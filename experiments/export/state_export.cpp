@@ -174,13 +174,9 @@ fs::path series_file(const fs::path& file, long step) {
          (file.stem().string() + printed("_%08ld", step) + file.extension().string());
 }
 
-void export_series(const MechanicalSystem& system, std::span<const MotionState> states,
-                   const std::function<std::vector<FrameContact>(size_t)>& contacts_of,
-                   const fs::path& file) {
-  if (file.has_parent_path()) create_folder(file.parent_path());
-  for (const MotionState& state : states)
-    export_state(system, state, series_file(file, state.step));
-  if (file.extension() != ".vtp") return;
+void write_series(std::span<const MotionState> states,
+                  const std::function<std::vector<FrameContact>(size_t)>& contacts_of,
+                  const fs::path& file) {
   write_pvd(file, states);
   if (!contacts_of) return;
   const fs::path contacts = file.parent_path() / (file.stem().string() + "_contacts.vtp");

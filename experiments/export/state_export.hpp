@@ -20,13 +20,13 @@ namespace ballast {
 void export_state(const MechanicalSystem& system, const MotionState& state,
                   const std::filesystem::path& file);
 
-/// Every state in a file of its own, series_file(file, step). With .vtp also the .pvd that names
-/// them with their times and, where `contacts` gives those of each state by its number, a second
-/// series whose names end in "_contacts": a point for each contact with force and normal_force on
-/// body b (world frame [N]). The folder is made.
-void export_series(const MechanicalSystem& system, std::span<const MotionState> states,
-                   const std::function<std::vector<FrameContact>(size_t)>& contacts,
-                   const std::filesystem::path& file);
+/// What makes .vtp files of states, series_file(file, step), one series: the .pvd that names them
+/// with their times and, where `contacts` gives those of each state by its number, a second series
+/// whose names end in "_contacts": a point for each contact with force and normal_force on body b
+/// (world frame [N]).
+void write_series(std::span<const MotionState> states,
+                  const std::function<std::vector<FrameContact>(size_t)>& contacts,
+                  const std::filesystem::path& file);
 /// "folder/name.vtp" of step 50: "folder/name_00000050.vtp".
 std::filesystem::path series_file(const std::filesystem::path& file, long step);
 

@@ -71,6 +71,12 @@ TEST_CASE("export takes its format from the suffix, one time, or all") {
   for (const char* name : {"block_00000000.vtp", "block_00000500.vtp", "block.pvd",
                            "block_contacts_00000500.vtp", "block_contacts.pvd"})
     CHECK(fs::exists(folder.path() / "all" / name));
+  CHECK(exported(run, folder.path() / "b.vtp", {"--time", "0.5"}).status == 0);
+  CHECK(read_whole_file(folder.path() / "all" / "block_00000500.vtp") ==
+        read_whole_file(folder.path() / "b.vtp"));
+  CHECK(exported(run, folder.path() / "all" / "state.obj", {"--all"}).status == 0);
+  CHECK(fs::exists(folder.path() / "all" / "state_00000500.obj"));
+  CHECK_FALSE(fs::exists(folder.path() / "all" / "state.pvd"));
 }
 
 TEST_CASE("a picture of a frame, and a page that shows a thing") {
