@@ -45,8 +45,7 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/BallastConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/BallastConfig.cmake
     ${CMAKE_BINARY_DIR}/BallastConfigVersion.cmake
-    cmake/FindIpopt.cmake cmake/FindNLopt.cmake cmake/FindSiconos.cmake
-    cmake/FindSuiteSparse.cmake
+    cmake/FindIpopt.cmake cmake/FindSiconos.cmake cmake/FindSuiteSparse.cmake
   DESTINATION ${package_folder} COMPONENT library)
 
 # Two Debian packages, whose dependencies on shared libraries dpkg-shlibdeps finds, and the sources.

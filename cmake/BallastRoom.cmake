@@ -59,23 +59,6 @@ foreach(headers ballast_headers ballast_cold_headers)
 endforeach()
 target_compile_options(ballast_cold_headers PRIVATE ${ballast_cold_options})
 
-# ballast_texts(NAME): builds the texts/*.md of all rooms beside this CMakeLists.txt into the room
-# ballast_NAME, where page::words finds them.
-function(ballast_texts name)
-  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*/texts/*.md)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
-  set(source ${CMAKE_CURRENT_BINARY_DIR}/words.cpp)
-  set(code "#include <string_view>\n#include <vector>\n\nnamespace ballast::page {\n\n")
-  string(APPEND code "std::vector<std::string_view> text_files() {\n  return {\n")
-  foreach(file IN LISTS files)
-    file(READ ${file} words)
-    string(APPEND code "R\"prose(${words})prose\",\n")
-  endforeach()
-  string(APPEND code "  };\n}\n\n}\n")
-  file(CONFIGURE OUTPUT ${source} CONTENT "${code}" @ONLY)
-  target_sources(ballast_${name} PRIVATE ${source})
-endfunction()
-
 # ballast_files(NAME FOLDER FUNCTION): builds the files of FOLDER into the room ballast_NAME, as
 #   std::string ballast::FUNCTION(const std::string& name);
 # which returns what stands in the file of that name; empty where there is none.
@@ -96,16 +79,19 @@ function(ballast_files name folder function)
   target_sources(ballast_${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
 endfunction()
 
-# ballast_file(NAME FILE FUNCTION): builds one file, which may be anywhere, into the room
-# ballast_NAME, as std::string ballast::FUNCTION(); empty where FILE is not found.
-function(ballast_file name file function)
-  set(text "")
-  if(EXISTS "${file}")
-    file(READ "${file}" text)
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
-  endif()
-  set(code "#include <string>\n\nnamespace ballast {\n\nstd::string ${function}() {\n")
-  string(APPEND code "  return R\"file(${text})file\";\n}\n\n}  // namespace ballast\n")
+# ballast_file(NAME FUNCTION FILES...): builds files, which may be anywhere, into the room
+# ballast_NAME, as std::string ballast::FUNCTION(): one after the other, without those that are not
+# found.
+function(ballast_file name function)
+  set(code "#include <string>\n\nnamespace ballast {\n\nstd::string ${function}() {\n  return \"\"")
+  foreach(file IN LISTS ARGN)
+    if(EXISTS "${file}")
+      file(READ "${file}" text)
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+      string(APPEND code "\nR\"file(${text})file\"")
+    endif()
+  endforeach()
+  string(APPEND code ";\n}\n\n}  // namespace ballast\n")
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "${code}" @ONLY)
   target_sources(ballast_${name} PRIVATE ${source})

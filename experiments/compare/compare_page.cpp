@@ -124,8 +124,8 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
 }
 
 /// In the order in which they build upon each other.
-constexpr std::array modules = {"rows.js",      "statistics.js", "asks.js",    "views.js",
-                                "histories.js", "window.js",     "details.js", "comparison.js"};
+constexpr std::array modules = {"rows.js",      "statistics.js", "asks.js",      "views.js",
+                                "histories.js", "details.js",    "comparison.js"};
 
 /// Points of all histories together: what a page can hold.
 constexpr size_t most_points = 25000;

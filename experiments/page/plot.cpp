@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pixels: beside the axes' boxes, and the height of one line of a key.
-constexpr double left_margin = 98.0, right_margin = 22.0, key_row = 22.0;
+/// Pixels beside the axes' boxes.
+constexpr double left_margin = 98.0, right_margin = 22.0;
 
 /// What an axis must show.
 struct Extent {
@@ -98,67 +98,26 @@ Extent x_extent(const Panel& panel) {
   return extent;
 }
 
-/// Columns and rows of a panel's key: all columns are as wide as the longest title (gnuplot's
-/// rule), letters taken as wide as it takes them.
-struct KeySize {
-  int columns = 1, rows = 0;
-};
-
-KeySize key_size(const Figure& figure, const Panel& panel) {
-  constexpr double letter = 10.6, sample = 5.3 * letter;
-  double widest = 0.0;
-  int entries = 0;
-  for (const Curve& curve : panel.curves) {
-    if (curve.title.empty()) continue;
-    ++entries;
-    const std::string title = plain_words(curve.title);
-    const auto letters = std::count_if(title.begin(), title.end(),
-                                       [](unsigned char c) { return (c & 0xc0) != 0x80; });
-    widest = std::max(widest, sample + letter * static_cast<double>(letters));
-  }
-  // as many columns as fit beside each other
-  if (entries == 0) return {};
-  KeySize size;
-  size.columns = std::clamp(static_cast<int>((figure.width - left_margin - right_margin) / widest),
-                            1, entries);
-  size.rows = (entries + size.columns - 1) / size.columns;
-  return size;
-}
-
+/// A panel's part of the figure, as gnuplot has it: shares of the height, from below. Keys and
+/// labels take their room within it.
 struct PanelPlace {
-  double top, bottom;  ///< pixels from the figure's lower edge to the axes' box
-  bool shows_x;        ///< numbers and label below the x axis
-  KeySize key;         ///< above the box
+  double origin, size;
+  bool shows_x;  ///< numbers and label below the x axis
 };
 
-/// One place for each panel, from the top down; all boxes are of the same height.
+/// One place for each panel, from the top down: below the last, or below each when the axes differ,
+/// there is room for numbers and x label.
 std::vector<PanelPlace> panel_places(const Figure& figure) {
-  // numbers and x label below the last box, or below each when the axes differ
-  const bool is_shared =
-      std::all_of(figure.panels.begin(), figure.panels.end(),
-                  [&](const Panel& panel) { return panel.x_label == figure.panels[0].x_label; });
-  constexpr double above = 12.0, below_last = 66.0;
-  const double below = is_shared ? 12.0 : below_last;
-  // what keys (and letters, which stand beside them), numbers and labels leave is shared evenly
-  // among the boxes
-  const auto count = static_cast<double>(figure.panels.size());
-  double keys = 0.0;
-  std::vector<KeySize> sizes;
-  for (const Panel& panel : figure.panels) {
-    KeySize& key = sizes.emplace_back(key_size(figure, panel));
-    if (figure.has_letters) key.rows = std::max(key.rows, 1);
-    keys += key_row * key.rows;
-  }
-  const double box =
-      (figure.height - keys - count * above - below_last - (count - 1.0) * below) / count;
-  // from the top of the figure down
+  const std::vector<Panel>& panels = figure.panels;
+  const bool is_shared = std::all_of(panels.begin(), panels.end(), [&](const Panel& panel) {
+    return panel.x_label == panels[0].x_label;
+  });
+  const double labels = is_shared && panels.size() > 1 ? 44.0 / figure.height : 0.0,
+               size = (1.0 - labels) / static_cast<double>(panels.size());
   std::vector<PanelPlace> places;
-  double y = figure.height;
-  for (const KeySize& key : sizes) {
-    y -= above + key_row * key.rows;
-    places.push_back({y, y - box, !is_shared || places.size() + 1 == sizes.size(), key});
-    y -= box + below;
-  }
+  for (double top = 1.0; places.size() + 1 < panels.size(); top -= size)
+    places.push_back({top - size, size, !is_shared});
+  places.push_back({0.0, size + labels, true});
   return places;
 }
 
@@ -249,32 +208,23 @@ std::string log_axis(char axis, const Extent& extent, std::vector<double> number
          list + ")\n";
 }
 
-std::string panel_commands(const Figure& figure, const Panel& panel, const PanelPlace& place,
-                           const std::string& blocks, char letter) {
+std::string panel_commands(const Panel& panel, const PanelPlace& place, const std::string& blocks,
+                           char letter) {
   const Extent x = x_extent(panel), y = y_extent(panel);
   std::string text =
       "unset arrow\nunset label\nunset logscale\nset format x '%g'\nset format y '%g'\n"
-      "set xtics autofreq\nset ytics autofreq\n";
-  const double right = 1.0 - right_margin / figure.width;
-  text += printed("set lmargin at screen %.5f\nset rmargin at screen %.5f\n",
-                  left_margin / figure.width, right);
-  text += printed("set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
-                  place.top / figure.height, place.bottom / figure.height);
+      "set bmargin -1\nset xtics autofreq\nset ytics autofreq\n";
+  text += printed("set size 1,%.5f\nset origin 0,%.5f\n", place.size, place.origin);
   text += "set xrange [" + script_number(x.low) + ':' + script_number(x.high) + "]\nset yrange [" +
           script_number(y.low) + ':' + script_number(y.high) + "]\n";
   if (panel.log_x) text += log_axis('x', x, panel.x_ticks);
   if (panel.log_y) text += log_axis('y', y, {});
   text += "set tics font ',15'\n";
   text += place.shows_x ? "set xlabel " + quoted(panel.x_label) + " offset 0,0.3\n"
-                        : "set xlabel ''\nset format x ''\n";
+                        : "set xlabel ''\nset format x ''\nset bmargin 0.6\n";
   text += "set ylabel " + quoted(panel.y_label) + '\n';
-  // above the box, to the right
-  text += printed(
-      "set key at screen %.5f, screen %.5f right center horizontal maxcols %d samplen 1.6 spacing "
-      "1.0\n",
-      right, (place.top + 5.0 + 0.5 * key_row * place.key.rows) / figure.height, place.key.columns);
   for (const ReferenceLine& line : panel.lines) text += reference(line);
-  if (letter) text += printed("set label '(%c)' at graph 0, graph 1 left offset 0, 0.7\n", letter);
+  if (letter) text += printed("set label '(%c)' at graph 0, graph 1 left offset 0, 0.5\n", letter);
   std::string curves;
   for (size_t c = 0; c < panel.curves.size(); ++c)
     curves += (curves.empty() ? "" : ", \\\n     ") +
@@ -322,11 +272,13 @@ std::string gnuplot_script(const Figure& figure) {
       figure.width, figure.height, id.c_str());
   text += "set border 3 lw 1 lc rgb '#767676'\nset tics nomirror out scale 0.6 tc rgb '#1a1a1a'\n";
   text += "set grid lw 0.6 lt 1 lc rgb '#e0e0e0'\n";
-  text += "set multiplot\n";
+  text += printed("set lmargin at screen %.5f\nset rmargin at screen %.5f\n",
+                  left_margin / figure.width, 1.0 - right_margin / figure.width);
+  text += "set key above right horizontal samplen 1.6 spacing 1.0\nset multiplot\n";
   const std::vector<PanelPlace> places = panel_places(figure);
   char next = 'a';
   for (size_t p = 0; p < figure.panels.size(); ++p) {
-    text += panel_commands(figure, figure.panels[p], places[p], "$p" + std::to_string(p) + "c",
+    text += panel_commands(figure.panels[p], places[p], "$p" + std::to_string(p) + "c",
                            figure.has_letters ? next++ : '\0');
   }
   return text + "unset multiplot\n";

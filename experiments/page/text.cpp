@@ -11,10 +11,13 @@
 
 #include "platform/text.hpp"
 
+namespace ballast {
+
+std::string page_texts();  // experiments/<room>/texts
+
+}  // namespace ballast
+
 namespace ballast::page {
-
-std::vector<std::string_view> text_files();  // of experiments/<room>/texts
-
 namespace {
 
 /// Marks that open and close alike. "**" stands before "*": the longer one is tried first.
@@ -262,34 +265,32 @@ Text verdict(double value, double bound) {
   return value <= bound ? Text("✓ met", good) : Text("✗ missed", bad);
 }
 
-std::map<std::string, std::string> entries_of(const std::vector<std::string_view>& files) {
+std::map<std::string, std::string> entries_of(const std::string& texts) {
   std::map<std::string, std::string> entries;
-  for (const std::string_view file : files) {
-    std::istringstream lines{std::string(file)};
-    std::string* entry = nullptr;
-    bool is_after_gap = false;
-    for (std::string line; std::getline(lines, line);) {
-      if (line.starts_with("# ")) {
-        const auto [place, is_new] = entries.try_emplace(line.substr(2));
-        if (!is_new) throw std::logic_error("page texts: \"" + place->first + "\" stands twice");
-        entry = &place->second;
-        is_after_gap = false;
-      } else if (line.empty()) {
-        is_after_gap = true;
-      } else if (!entry) {
-        throw std::logic_error("page texts: no headline before \"" + line + "\"");
-      } else {
-        if (!entry->empty()) *entry += is_after_gap ? '\n' : ' ';
-        *entry += line;
-        is_after_gap = false;
-      }
+  std::istringstream lines(texts);
+  std::string* entry = nullptr;
+  bool is_after_gap = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("# ")) {
+      const auto [place, is_new] = entries.try_emplace(line.substr(2));
+      if (!is_new) throw std::logic_error("page texts: \"" + place->first + "\" stands twice");
+      entry = &place->second;
+      is_after_gap = false;
+    } else if (line.empty()) {
+      is_after_gap = true;
+    } else if (!entry) {
+      throw std::logic_error("page texts: no headline before \"" + line + "\"");
+    } else {
+      if (!entry->empty()) *entry += is_after_gap ? '\n' : ' ';
+      *entry += line;
+      is_after_gap = false;
     }
   }
   return entries;
 }
 
 Text words(const std::string& name, const Values& values) {
-  static const std::map<std::string, std::string> entries = entries_of(text_files());
+  static const std::map<std::string, std::string> entries = entries_of(page_texts());
   const auto entry = entries.find(name);
   if (entry == entries.end()) throw std::logic_error("page texts: there is no \"" + name + "\"");
   return marked(entry->second, values);

@@ -99,7 +99,7 @@ Text interval(double low, double high);
 /// either is NaN.
 Text verdict(double value, double bound);
 
-/// Prose in text files: experiments/<room>/texts/*.md are built into the program (ballast_texts of
+/// Prose in text files: experiments/<room>/texts/*.md are built into the program (ballast_file of
 /// CMake), one entry under each headline, in the notation of text.hpp:
 ///
 ///   # fig3.found
@@ -111,9 +111,9 @@ Text verdict(double value, double bound);
 /// std::logic_error when there is no entry of that name, and as marked() does.
 Text words(const std::string& name, const Values& values = {});
 
-/// The entries of such files by their names. An entry's lines are joined by spaces, an empty line
+/// The entries of such texts by their names. An entry's lines are joined by spaces, an empty line
 /// in it is a line break. Throws std::logic_error when a name occurs twice, or words stand before a
 /// headline.
-std::map<std::string, std::string> entries_of(const std::vector<std::string_view>& files);
+std::map<std::string, std::string> entries_of(const std::string& texts);
 
 }  // namespace ballast::page

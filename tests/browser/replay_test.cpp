@@ -85,9 +85,8 @@ TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to t
   // the middle of the first plot is the middle of the run
   browser.js("document.getElementById('replay-plots').scrollIntoView()");
   const Json spot = browser.js(
-      "(() => { const b = document.getElementById('replay-plots').getBoundingClientRect(), "
-      "p = ballastReplay.plots.panels[0].box; return [b.left + (p.left + p.right) / 2, "
-      "b.top + (p.top + p.bottom) / 2]; })()");
+      "(() => { const p = ballastReplay.plots.panels[0], b = p.picture.getBoundingClientRect(); "
+      "return [b.left + (p.x(p.left) + p.x(p.right)) / 2, b.top + b.height / 2]; })()");
   browser.click(spot[0], spot[1]);
   CHECK(std::abs(time() - 0.01) < 2e-4);
 }

@@ -1,14 +1,20 @@
-// One row, opened from a point or a cell.
+// The window in the page's corner with one solve, opened from a point or a cell: its numbers, its
+// history, and how it is made again. Which one is open stands in the address.
 
-const facts_of = (row) => facts_table([
+const facts_of = (row) => element("table", { class: "facts" }, element("tbody", {}, ...[
   ["what came of it", row.is_solved ? "solved" : reason_of(row)],
   ["time", `${time_words(row.seconds)}, of it prepare ${time_words(row.prepare_seconds)}`],
   ["error", `${number(row.error)} (tolerance ${row.tolerance_text}, ${row.measure})`],
   ["iterations", row.iterations ? String(row.iterations) : dash],
   ["contacts", `${row.contacts}; rank deficiency ${number(row.rank_deficiency, 2)}, ` +
                `mass ratio ${number(row.mass_ratio)}`],
-  row.worst ? ["worst contact", row.worst] : null,
-  row.note ? ["note", row.note] : null]);
+  ["worst contact", row.worst], ["note", row.note]].filter(([, value]) => value)
+  .map(([what, value]) => element("tr", {}, element("td", {}, what), element("td", {}, value)))));
+
+/// A command with a button that copies it.
+const command_line = (command) =>
+  element("div", { class: "line command" }, element("pre", { tabindex: 0 }, command),
+          button("copy", (event) => copy(command, event.currentTarget)));
 
 /// The command that shows where in the packing the answer is wrong; a note where the bodies are not
 /// known.
@@ -22,15 +28,35 @@ function view_of(row) {
                  (row.start === "warm" ? " --warm" : ""))];
 }
 
-/// The window of one solve: its numbers, its history, and how it is made again.
-const refresh_details = window_for("row", "One solve", (key) => {
-  const row = rows.find((one) => one.key === key);
-  if (!row) return null;
-  const history = history_curve(row), parts = [facts_of(row),
-    element("p", {}, "Made again by (from the folder where the comparison was started):"),
-    command_line(command_of(row)), ...view_of(row)];
-  if (history.points.length < 2) return { title: `${row.solver} on ${row.case}`, parts };
-  const chart = chart_of({ title: "History", x: seconds_axis, y: error_axis, curves: [history],
-                           lines: tolerance_lines([row]) }, { told: told_history, hidden: "none" });
-  return { title: `${row.solver} on ${row.case}`, parts: [...parts, chart.element], chart };
+/// The row's history as a chart; null where it has none.
+function history_chart(row) {
+  const history = history_curve(row);
+  if (history.points.length < 2) return null;
+  return chart_of({ title: "History", x: seconds_axis, y: error_axis, curves: [history],
+                    lines: tolerance_lines([row]) }, { told: told_history, hidden: "none" });
+}
+
+const details = { element: element("dialog", { "aria-label": "One solve", class: "details" }),
+                  row: undefined, chart: null };
+document.body.append(details.element);
+const close_details = () => choice.set("row", null);
+document.addEventListener("keydown", (event) => {
+  if (event.key === "Escape" && details.element.open) close_details();
 });
+
+/// Shows the row that the address names. The chart is drawn when it is seen.
+function refresh_details() {
+  const key = choice.get("row"), row = key ? rows.find((one) => one.key === key) : undefined;
+  if (row === details.row) return;
+  details.chart?.gone();
+  Object.assign(details, { row, chart: row ? history_chart(row) : null });
+  if (!row) return details.element.close();
+  details.element.replaceChildren(
+    element("div", { class: "line head" }, element("h3", {}, `${row.solver} on ${row.case}`),
+            button("close", close_details)),
+    facts_of(row),
+    element("p", {}, "Made again by (from the folder where the comparison was started):"),
+    command_line(command_of(row)), ...view_of(row), details.chart?.element ?? "");
+  if (!details.element.open) details.element.show();
+  details.chart?.draw();
+}

@@ -45,8 +45,8 @@ const cssGradient = (ramp, from = 0, to = 1) => "linear-gradient(90deg," +
   Array.from({ length: 17 }, (_, k) =>
     cssColour(colourAt(ramp, from + (to - from) * k / 16))).join(",") + ")";
 
-// A colour of the page's style sheet: as it stands there, and in linear light.
+// A colour of the page's style sheet in linear light.
 function styleColour(name) {
   const text = getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
-  return { text, linear: linearOf(text.length === 4 ? text.replace(/[0-9a-f]/gi, "$&$&") : text) };
+  return linearOf(text.length === 4 ? text.replace(/[0-9a-f]/gi, "$&$&") : text);
 }

@@ -77,7 +77,7 @@ class Marks {
       const corners = loop.flatMap((p) =>
         [...p, dot(sub(p, point), side), dot(sub(p, point), other)]);
       // walls that move are blue
-      const moves = data.wallMoves[w], colour = moves ? colours.blue.linear : colours.grey.linear;
+      const moves = data.wallMoves[w], colour = moves ? colours.blue : colours.grey;
       look.planes.push({ corners: new Float32Array(corners),
         tint: [...colour, thin * (moves ? 0.24 : 0.07)] });
       loop.forEach((p, k) => addRod(rods, p, moves ? -1.1 : -0.75,
@@ -91,7 +91,7 @@ class Marks {
     const { radius } = this.data, share = this.data.seriesAt("f", time) / this.topLoad;
     const middle = times(loop.reduce((sum, p) => add(sum, p), [0, 0, 0]), 1 / loop.length);
     const tail = sub(middle, times(wall.normal, (0.08 + 0.5 * Math.abs(share)) * radius));
-    const neck = sub(middle, times(wall.normal, 0.09 * radius)), colour = colours.vermilion.linear;
+    const neck = sub(middle, times(wall.normal, 0.09 * radius)), colour = colours.vermilion;
     this.load = { tail, middle };
     addRod(rods, tail, 0.009 * radius, neck, 0.009 * radius, colour);
     addRod(rods, neck, 0.028 * radius, middle, 0.001 * radius, colour);

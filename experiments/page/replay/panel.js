@@ -68,7 +68,7 @@ function buildPanel(replay) {
             replay.touched();
           })))),
     element("div", { class: "controls", id: "replay-errors", hidden: true }),
-    element("canvas", { id: "replay-plots", hidden: !data.head.plots.length,
+    element("div", { id: "replay-plots", role: "img",
       "aria-label": "Curves of the run: a click goes to that moment" }));
   part("sentence").hidden = true;
 }

@@ -1,56 +1,29 @@
 // The curves of a run with one cursor: where the cursor stands is where the box is.
 
 class Plots {
-  constructor(canvas, data, goTo) {
-    this.canvas = canvas;
+  constructor(place, data, goTo) {
     this.data = data;
-    this.base = document.createElement("canvas");
-    this.panels = [];
-    const jump = (event) => {
-      const box = canvas.getBoundingClientRect();
-      const time = this.timeAt(event.clientX - box.left, event.clientY - box.top);
-      if (time !== null) goTo(time);
-    };
-    canvas.addEventListener("pointerdown", (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      jump(event);
-    });
-    canvas.addEventListener("pointermove", (event) => { if (event.buttons) jump(event); });
+    place.innerHTML = "<svg></svg>".repeat(data.head.plots.length);
+    this.panels = data.head.plots.map((plot, k) => this.panel(plot, place.children[k]));
+    for (const panel of this.panels) {
+      const { picture } = panel;
+      const jump = (event) => {
+        const { left, top } = picture.getBoundingClientRect();
+        goTo(this.timeAt(panel, event.clientX - left, event.clientY - top));
+      };
+      picture.addEventListener("pointerdown", (event) => {
+        picture.setPointerCapture(event.pointerId);
+        jump(event);
+      });
+      picture.addEventListener("pointermove", (event) => { if (event.buttons) jump(event); });
+    }
+    this.layOut();
   }
 
-  // A canvas of this size in the page's pixels, ready to draw on.
-  paper(canvas, width, height) {
-    const ratio = window.devicePixelRatio || 1;
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    const pen = canvas.getContext("2d");
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.font = "12px system-ui, \"Segoe UI\", \"DejaVu Sans\", sans-serif";
-    return pen;
-  }
-
-  // Places all plots beside each other, or below where there is no room, and draws the curves.
-  layOut(colours) {
-    const { plots } = this.data.head, width = this.canvas.clientWidth;
-    const columns = Math.max(1, Math.min(plots.length, Math.floor(width / 250)));
-    const high = 168, rows = Math.ceil(plots.length / columns);
-    this.canvas.style.height = rows * high + "px";
-    this.height = rows * high;
-    this.width = width;
-    this.colours = colours;
-    const pen = this.paper(this.base, width, this.height);
-    this.panels = plots.map((plot, k) => {
-      const left = (k % columns) * width / columns + 52, top = Math.floor(k / columns) * high + 26;
-      return this.panel(plot, { left, top, right: left + width / columns - 66,
-        bottom: top + high - 58 });
-    });
-    for (const panel of this.panels) this.drawBase(pen, panel);
-  }
-
-  panel(plot, box) {
+  // The curves of a plot and what its axes span.
+  panel(plot, picture) {
     const series = plot.series.map((name) => this.data.series[name]);
-    const over = plot.over ? this.data.series[plot.over] : null;
-    const across = over ? over.values : this.data.seriesTime;
+    const over = this.data.series[plot.over], across = over ? over.values : this.data.seriesTime;
     const range = (values) => {
       let low = Infinity, high = -Infinity;
       for (const v of values)
@@ -63,101 +36,64 @@ class Plots {
     const tops = series.map((s) => 1.25 * quantile(s.values, 0.995));
     const lows = Math.min(...all);
     const high = Math.min(Math.max(...all), Math.max(...tops, lows + 1e-9));
-    const low = lows > 0 && lows < 0.5 * high ? 0 : lows;
-    return { plot, series, over, across, box,
-      x: (v) => box.left + (v - left) / (right - left) * (box.right - box.left),
-      y: (v) => box.bottom - (v - low) / (high - low || 1) * (box.bottom - box.top),
-      left, right, low, high };
+    return { picture, series, over, across, left, right, high,
+      low: lows > 0 && lows < 0.5 * high ? 0 : lows };
   }
 
-  drawBase(pen, panel) {
-    const { box, series, over, across, x, y, low, high, left, right } = panel;
-    const { grid, soft, ink } = this.colours;
-    pen.lineWidth = 1;
-    pen.textAlign = "right";
-    const step = niceStep(high - low, 4);
-    for (let v = Math.ceil(low / step) * step; v <= high + 1e-9 * step; v += step) {
-      pen.strokeStyle = grid.text;
-      pen.beginPath();
-      pen.moveTo(box.left, Math.round(y(v)) + 0.5);
-      pen.lineTo(box.right, Math.round(y(v)) + 0.5);
-      pen.stroke();
-      pen.fillStyle = soft.text;
-      pen.fillText(shown(v, 4), box.left - 6, y(v) + 4);
+  // Draws the curves as wide as there is room.
+  layOut() {
+    for (const panel of this.panels) {
+      const { picture, series, over, across, left, right, low, high } = panel;
+      const wide = picture.getBoundingClientRect().width - 66;
+      const x = panel.x = (v) => 52 + (v - left) / (right - left) * wide;
+      const y = panel.y = (v) => 136 - (v - low) / (high - low || 1) * 110;
+      const text = (place, height, anchor, words) =>
+        `<text x="${place}" y="${height}" text-anchor="${anchor}">${words}</text>`;
+      const ticks = (from, to, drawn) => {
+        const step = niceStep(to - from, 4), first = Math.ceil(from / step - 1e-9);
+        const count = Math.floor(to / step + 1e-9) - first + 1;
+        return Array.from({ length: count }, (_, k) => drawn((first + k) * step)).join("");
+      };
+      const ink = (one) => `var(--${series.length > 1 ? one.ink : "ink"})`;
+      const title = ({ symbol, unit }) => {
+        const [sign, index = ""] = symbol.split("_"), down = index && 3;
+        return `${sign}<tspan dy="${+down}">${index}</tspan>` +
+          `<tspan dy="${-down}"> ${unit && "/ " + unit}</tspan>`;
+      };
+      const line = (one) => Array.from(across, (v, k) => [x(v), y(one.values[k])])
+        .filter((place) => place.every(Number.isFinite))
+        .map((place) => place.map((v) => v.toFixed(1))).join("L");
+      picture.innerHTML = ticks(low, high, (v) =>
+        `<path class="grid" d="M52 ${Math.round(y(v)) + 0.5}h${wide}"/>` +
+          text(46, y(v) + 4, "end", shown(v, 4))) +
+        ticks(left, right, (v) => text(x(v), 152, "middle", shown(v, 4))) +
+        text(52 + wide, 164, "end", over ? title(over) : "t / s") +
+        text(52, 17, "start", series.map((one, k) =>
+          `<tspan dx="${k && 14}" fill="${ink(one)}">${title(one)}</tspan>`).join("")) +
+        `<svg x="51" y="23" width="${wide + 2}" height="115" viewBox="51 23 ${wide + 2} 115">` +
+        series.map((one, k) => `<path d="M${line(one)}" stroke="var(--${one.ink})" ` +
+          `stroke-width="${k === series.length - 1 ? 1.6 : 1}"/>`).join("") + "</svg>" +
+        (over ? "" : '<path class="at" stroke="var(--ink)" d="M0.5 23V136"/>') +
+        series.map((one) => `<circle class="at" r="4.5" fill="var(--${one.ink})"/>`).join("");
     }
-    pen.textAlign = "center";
-    const stride = niceStep(right - left, 4);
-    for (let v = Math.ceil(left / stride - 1e-9) * stride; v <= right + 1e-9; v += stride)
-      pen.fillText(shown(+v.toPrecision(6), 4), x(v), box.bottom + 16);
-    pen.textAlign = "right";
-    const [below, unit_] = over ? [over.symbol, over.unit] : ["t", "s"];
-    pen.fillText(below + " / " + unit_, box.right, box.bottom + 28);
-    // what is drawn, in its colour
-    pen.textAlign = "left";
-    let at = box.left;
-    for (const one of series) {
-      pen.fillStyle = series.length > 1 ? this.colours[one.ink].text : ink.text;
-      at = 14 + this.write(pen, one.symbol, one.unit ? " / " + one.unit : "", at, box.top - 9);
-    }
-    pen.save();
-    pen.beginPath();
-    pen.rect(box.left - 1, box.top - 3, box.right - box.left + 2, box.bottom - box.top + 5);
-    pen.clip();
-    for (const one of series) {
-      pen.strokeStyle = this.colours[one.ink].text;
-      pen.lineWidth = one === series[series.length - 1] ? 1.6 : 1;
-      pen.lineJoin = "round";
-      pen.beginPath();
-      for (let k = 0; k < across.length; ++k) pen.lineTo(x(across[k]), y(one.values[k]));
-      pen.stroke();
-    }
-    pen.restore();
   }
 
-  // A symbol with what follows its "_" set lower, then other words. Returns where they end.
-  write(pen, symbol, words, x, y) {
-    const [sign, index = ""] = symbol.split("_");
-    for (const [text, down] of [[sign, 0], [index, 3], [words, 0]]) {
-      pen.fillText(text, x, y + down);
-      x += pen.measureText(text).width;
-    }
-    return x;
-  }
-
-  // The curves and where the time is on them.
+  // Moves the cursor to a time.
   draw(time) {
-    const pen = this.paper(this.canvas, this.width, this.height);
-    pen.drawImage(this.base, 0, 0, this.width, this.height);
-    for (const { plot, series, over, box, x, y } of this.panels) {
-      const at = x(over ? this.data.seriesAt(plot.over, time) : time);
-      pen.strokeStyle = this.colours.ink.text;
-      pen.lineWidth = 1;
-      if (!over) {
-        pen.beginPath();
-        pen.moveTo(at, box.top - 3);
-        pen.lineTo(at, box.bottom);
-        pen.stroke();
-      }
-      for (const one of series) {
-        const value = this.data.seriesAt(one.name, time);
-        pen.fillStyle = this.colours[one.ink].text;
-        pen.strokeStyle = this.colours.paper.text;
-        pen.lineWidth = 2;
-        pen.beginPath();
-        pen.arc(at, Math.max(y(value), box.top - 3), 4.5, 0, 2 * Math.PI);
-        pen.fill();
-        pen.stroke();
-      }
+    for (const { picture, series, over, x, y } of this.panels) {
+      const at = Math.round(x(over ? this.data.seriesAt(over.name, time) : time));
+      const heights = series.map(({ name }) => Math.max(y(this.data.seriesAt(name, time)), 23));
+      if (!over) heights.unshift(0);
+      picture.querySelectorAll(".at").forEach((mark, k) => {
+        mark.style.transform = `translate(${at}px,${heights[k]}px)`;
+      });
     }
   }
 
-  // The time that a place in the plots means; null between them. On a loop: the nearest of it.
-  timeAt(px, py) {
-    const panel = this.panels.find(({ box }) => px >= box.left - 12 && px <= box.right + 12 &&
-      py >= box.top - 20 && py <= box.bottom + 24);
-    if (!panel) return null;
-    const { box, over, across, series, x, y, left, right } = panel;
-    if (!over) return left + clamp((px - box.left) / (box.right - box.left), 0, 1) * (right - left);
+  // The time that a place in a plot means. On a loop: the nearest of it.
+  timeAt({ over, across, series, x, y, left, right }, px, py) {
+    const end = x(right), begin = x(left);
+    if (!over) return left + clamp((px - begin) / (end - begin), 0, 1) * (right - left);
     let nearest = 0, least = Infinity;
     for (let k = 0; k < across.length; ++k) {
       const away = (x(across[k]) - px) ** 2 + (y(series[0].values[k]) - py) ** 2;

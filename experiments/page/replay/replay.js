@@ -38,14 +38,13 @@ class Replay {
       listenToKeys(canvas, this);
     }
     this.set({});
-    const layOut = () => {
-      this.plots.layOut(this.colours);
+    new ResizeObserver(() => {
+      this.plots.layOut();
       this.set({});
-    };
-    new ResizeObserver(layOut).observe(part("stage"));
+    }).observe(part("stage"));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       this.readStyle();
-      layOut();
+      this.set({});
     });
     // what nobody sees is not drawn
     this.isSeen = true;
@@ -59,10 +58,9 @@ class Replay {
   }
 
   readStyle() {
-    const names = ["paper", "ink", "soft", "rule", "grid", "grey", "blue", "vermilion", "green",
-      "purple", "orange"];
+    const names = ["paper", "grey", "blue", "vermilion"];
     this.colours = Object.fromEntries(names.map((name) => [name, styleColour(name)]));
-    suitMarks(this.colours.paper.linear);
+    suitMarks(this.colours.paper);
   }
 
   // Changes what the reader has chosen, and shows it in the panel.
@@ -168,7 +166,7 @@ class Replay {
   // All that a stage draws at this moment.
   look(picture) {
     const look = { camera: this.camera, grains: this.options.grains, picked: this.options.picked,
-      cut: this.cutPlane(), paper: this.colours.paper.linear, balls: this.isDraft };
+      cut: this.cutPlane(), paper: this.colours.paper, balls: this.isDraft };
     look.rods = this.marks.build(this.time, look, this.options, this.colours, this.errors,
       picture);
     return look;
@@ -193,7 +191,7 @@ class Replay {
     part("clock").textContent = this.time.toFixed(3) + " s";
     drawFacts(this.data, this.options.picked, this.time);
     this.placeLoad();
-    if (this.data.head.plots.length) this.plots.draw(this.time);
+    this.plots.draw(this.time);
     this.isStale = this.isDraft && !this.moving;
     this.wholeBegan = this.isDraft ? 0 : performance.now();
   }

@@ -133,7 +133,7 @@ TEST_CASE("settings without trailing zeros, units, errors, deviations, intervals
 
 TEST_CASE("named paragraphs of text files, lines joined, values filled in") {
   const auto entries = entries_of(
-      {"# first\n\nOne line,\nand *another*.\n\nBroken.\n\n# second\n{x} mm\n", "# third\na\n"});
+      "# first\n\nOne line,\nand *another*.\n\nBroken.\n\n# second\n{x} mm\n# third\na\n");
   const auto texts = [&](const char* name, const Values& values = {}) {
     return marked(entries.at(name), values);
   };
@@ -143,8 +143,8 @@ TEST_CASE("named paragraphs of text files, lines joined, values filled in") {
   CHECK(texts("third", {{"x", "of another text"}}) == Text("a"));
   CHECK_THROWS_WITH(words("b"), Contains("there is no \"b\""));
   CHECK_THROWS_WITH(texts("second"), Contains("{x}") && Contains("mm"));
-  CHECK_THROWS_WITH(entries_of({"# a\nx\n", "# a\ny\n"}), Contains("\"a\" stands twice"));
-  CHECK_THROWS_WITH(entries_of({"words\n# a\n"}), Contains("no headline before \"words\""));
+  CHECK_THROWS_WITH(entries_of("# a\nx\n# a\ny\n"), Contains("\"a\" stands twice"));
+  CHECK_THROWS_WITH(entries_of("words\n# a\n"), Contains("no headline before \"words\""));
 }
 
 TEST_CASE("a table's words are its caption and the cells of its head") {
