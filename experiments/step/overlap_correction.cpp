@@ -46,26 +46,30 @@ double OverlapCorrection::stiffness_of(const FrictionProblem& problem, int c) co
   return compliance > 0.0 ? 1.0 / compliance : 0.0;
 }
 
-double OverlapCorrection::apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
-                                std::span<const ContactPoint> contacts, const Eigen::VectorXd& v,
-                                double h, MotionState& state) {
-  if (!spec_.enabled) return 0.0;
-  const double tolerated = -spec_.slop;
-  const bool nothing_overlaps = std::none_of(
-      contacts.begin(), contacts.end(), [&](const ContactPoint& c) { return c.gap < tolerated; });
-  if (nothing_overlaps) return 0.0;
-
-  // A row for each contact point: how far its bodies must be moved apart.
+void OverlapCorrection::ask(WorkerTeam* team, const ProblemAssembler& assembler,
+                            const FrictionProblem& problem, std::span<const ContactPoint> contacts,
+                            const Eigen::VectorXd& v, double h) {
   rows_.clear();
-  for (int c = 0; c < problem.contact_count(); ++c) {
-    const ContactPoint& contact = contacts[assembler.detected()[c]];
-    const double next_gap = contact.gap + h * normal_velocity(problem, c, v);
-    // a fraction of the overlap goes; a point that is open or within the slop may close to the
-    // slop, no further
-    const double wanted = tolerated + (1.0 - spec_.fraction) * std::min(0.0, next_gap - tolerated);
-    rows_.push_back({wanted - next_gap, -1.0, 0.0});
-  }
+  const double tolerated = -spec_.slop;
+  const auto overlaps = [&](const ContactPoint& c) { return c.gap < tolerated; };
+  if (!spec_.enabled || std::ranges::none_of(contacts, overlaps)) return;
+  rows_.resize(problem.contact_count());
+  run_ranges(team, problem.contact_count(), /*together=*/1024, [&](int begin, int end) {
+    for (int c = begin; c < end; ++c) {
+      const ContactPoint& contact = contacts[assembler.detected()[c]];
+      const double next_gap = contact.gap + h * normal_velocity(problem, c, v);
+      // a fraction of the overlap goes; a point that is open or within the slop may close to the
+      // slop, no further
+      const double wanted =
+          tolerated + (1.0 - spec_.fraction) * std::min(0.0, next_gap - tolerated);
+      rows_[c] = {wanted - next_gap, -1.0, 0.0};
+    }
+  });
+}
 
+double OverlapCorrection::apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
+                                MotionState& state) {
+  if (rows_.empty()) return 0.0;
   // Projected Gauss-Seidel on displacements: pushes only push (>= 0), heavy bodies move less.
   displacement_.setZero();
   is_displaced_.assign(problem.dynamics.body_count(), 0);

@@ -75,42 +75,67 @@ void BroadPhase::list_boxes(std::span<const Pose> poses, std::span<const Mat3> r
   }
 }
 
-/// Sort and prune, along the axis on which the bodies are spread out most: only boxes that overlap
-/// along it are compared in the other two directions.
+/// Sort and prune, strip by strip: boxes lie in strips across one direction, and within a strip
+/// only boxes that overlap along another are compared.
 void BroadPhase::find_overlaps() {
-  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+  found_.clear();
+  if (order_.empty()) return;
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300), width = Vec3::Zero();
   for (const int i : order_) {
     low = low.cwiseMin(boxes_[i].low);
     high = high.cwiseMax(boxes_[i].low);
+    width += (boxes_[i].high - boxes_[i].low) / static_cast<double>(order_.size());
   }
-  int axis = 0;
-  (high - low).maxCoeff(&axis);
-  std::sort(order_.begin(), order_.end(), [&](int i, int j) {
-    const double a = boxes_[i].low[axis], b = boxes_[j].low[axis];
+  // Along the direction in which the bodies are spread out most, in strips across the next one.
+  int axis[] = {0, 1, 2};
+  std::ranges::sort(axis, [spread = Vec3(high - low)](int i, int j) {
+    return spread[i] > spread[j] || (spread[i] == spread[j] && i < j);
+  });
+  std::ranges::sort(order_, [&](int i, int j) {
+    const double a = boxes_[i].low[axis[0]], b = boxes_[j].low[axis[0]];
     return a < b || (a == b && i < j);
   });
-  // Each box against those after it, read in their order.
-  const int directions[] = {axis, (axis + 1) % 3, (axis + 2) % 3};
+  const double first = low[axis[1]], spread = high[axis[1]] - first;
+  const double most = static_cast<double>(order_.size()) / 64.0;
+  const int count = 1 + static_cast<int>(std::min(most, spread / (2.0 * width[axis[1]])));
+  const auto strip_of = [=](double at) {  // of what is no number the first
+    const double share = (at - first) / spread;
+    return share > 0.0 ? static_cast<int>(std::min(share, 1.0) * (count - 1)) : 0;
+  };
+  strips_.resize(count);
+  for (std::vector<int>& strip : strips_) strip.clear();
+  for (const int i : order_)
+    for (int s = strip_of(boxes_[i].low[axis[1]]); s <= strip_of(boxes_[i].high[axis[1]]); ++s)
+      strips_[s].push_back(i);
+  for (int s = 0; s < count; ++s)
+    compare_boxes(strips_[s], axis, [&](double begin) { return strip_of(begin) == s; });
+}
+
+/// Of the boxes of a strip, in the order in which they begin along axis[0]:
+///
+///     i   |---------|
+///     j        |------|          begins before i ends: compared in the other directions
+///     k                 |---|    begins behind i's end, and so do all after it: i is done
+///
+/// A pair is found in the strip alone in which its overlap begins: `is_here`.
+template <class IsHere>
+void BroadPhase::compare_boxes(const std::vector<int>& strip, const int (&axis)[3],
+                               const IsHere& is_here) {
   for (int d = 0; d < 3; ++d) {
     sorted_[d].clear();
-    for (const int i : order_)
-      sorted_[d].push_back({boxes_[i].low[directions[d]], boxes_[i].high[directions[d]]});
+    for (const int i : strip)
+      sorted_[d].push_back({boxes_[i].low[axis[d]], boxes_[i].high[axis[d]]});
   }
   const auto overlaps = [](const Interval& p, const Interval& q) {
     return (q.low <= p.high) & (q.high >= p.low);
   };
-  found_.clear();
-  // Boxes in the order in which they begin along the axis:
-  //
-  //     i   |---------|
-  //     j        |------|          begins before i ends: compared in the other directions
-  //     k                 |---|    begins behind i's end, and so do all after it: i is done
-  for (size_t k = 0; k < order_.size(); ++k) {
+  for (size_t k = 0; k < strip.size(); ++k) {
     const Interval along = sorted_[0][k], second = sorted_[1][k], third = sorted_[2][k];
-    for (size_t l = k + 1; l < order_.size() && sorted_[0][l].low <= along.high; ++l) {
+    for (size_t l = k + 1; l < strip.size() && sorted_[0][l].low <= along.high; ++l) {
       if (!(overlaps(second, sorted_[1][l]) & overlaps(third, sorted_[2][l]))) continue;
-      const int i = order_[k], j = order_[l];
-      if (!bodies_[i].meets(bodies_[j])) continue;
+      const int i = strip[k], j = strip[l];
+      if (!bodies_[i].meets(bodies_[j]) || !is_here(std::max(second.low, sorted_[1][l].low)))
+        continue;
       found_.emplace_back(std::min(i, j), std::max(i, j));
     }
   }

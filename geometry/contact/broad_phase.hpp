@@ -71,6 +71,8 @@ class BroadPhase {
   void list_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
                   std::span<const double> reach);
   void find_overlaps();
+  template <class IsHere>
+  void compare_boxes(const std::vector<int>& strip, const int (&axis)[3], const IsHere& is_here);
   void list_pairs();
 
   std::vector<Body> bodies_;
@@ -81,10 +83,11 @@ class BroadPhase {
       allowance_;              // how far a body's surface may get from there, reach included [m]
   std::vector<Bounds> boxes_;  // grown by the allowance
   std::vector<int> order_;     // polyhedra, by the low end of their boxes
+  std::vector<std::vector<int>> strips_;  // the same, by where they lie in a second direction
   struct Interval {
     double low, high;
   };
-  std::vector<Interval> sorted_[3];  // of the boxes in that order, along each direction
+  std::vector<Interval> sorted_[3];  // of a strip's boxes in its order, along each direction
   std::vector<std::pair<int, int>> found_;
   std::vector<CandidatePair> pairs_;
   std::vector<int> first_;

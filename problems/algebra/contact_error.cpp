@@ -281,8 +281,14 @@ double largest_eigenvalue(const Eigen::Matrix3d& w) {
 
 void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
                                              const std::vector<int>& row_begin, const Impulses& r) {
-  if (!masses_.are_of(dynamics)) masses_.keep(dynamics);
-  contact_to_body_impulse(dynamics, row_begin, r, hr_);
+  bool are_known = false;
+  run_parts(team_, 2, [&](int part) {
+    if (part)
+      are_known = masses_.are_of(dynamics);
+    else
+      contact_to_body_impulse(dynamics, row_begin, r, hr_);
+  });
+  if (!are_known) masses_.keep(dynamics);
   v_ = hr_;
   solve_masses(dynamics, masses_.roots(), v_);
   v_ += dynamics.v_free;

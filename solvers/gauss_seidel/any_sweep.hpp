@@ -15,6 +15,7 @@ class AnySweep {
   /// Whose members share a sweep from now on; null: the caller alone. The same bits whatever their
   /// number.
   void use_team(WorkerTeam* team) {
+    plan_.use_team(team);
     scalar_.use_team(team);
     wide_.use_team(team);
   }

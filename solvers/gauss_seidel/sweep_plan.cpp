@@ -116,20 +116,21 @@ void SweepPlan::find_openings(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   const int contacts = problem.contact_count();
   opening_.assign(contacts, 0.0);
-  widest_ = 0.0;
-  for (int c = 0; c < contacts; ++c) {
-    const double gap = dynamics.bias[problem.row_begin[c]];
-    if (!(gap > 0.0)) continue;
-    const int rows = problem.contact_rows(c);
-    const double* entry = dynamics.h.data() + dynamics.h_begin[c];
-    double free = gap;
-    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
-      const double* v = dynamics.v_free.data() + (body < 0 ? 0 : dynamics.dof_begin[body]);
-      for (int j = 0; j < dynamics.body_dofs(body); ++j, entry += rows) free += *entry * v[j];
+  run_ranges(team_, contacts, /*together=*/1024, [&](int begin, int end) {
+    for (int c = begin; c < end; ++c) {
+      const double gap = dynamics.bias[problem.row_begin[c]];
+      if (!(gap > 0.0)) continue;
+      const int rows = problem.contact_rows(c);
+      const double* entry = dynamics.h.data() + dynamics.h_begin[c];
+      double free = gap;
+      for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+        const double* v = dynamics.v_free.data() + (body < 0 ? 0 : dynamics.dof_begin[body]);
+        for (int j = 0; j < dynamics.body_dofs(body); ++j, entry += rows) free += *entry * v[j];
+      }
+      opening_[c] = std::clamp(free, 0.0, gap);
     }
-    opening_[c] = std::clamp(free, 0.0, gap);
-    widest_ = std::max(widest_, opening_[c]);
-  }
+  });
+  widest_ = contacts > 0 ? *std::ranges::max_element(opening_) : 0.0;
 }
 
 /// 0: it closes; else the octave of its opening, the higher the wider.

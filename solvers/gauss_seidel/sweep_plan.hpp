@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "platform/worker_team.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/gauss_seidel/group_kernels.hpp"
 
@@ -27,6 +28,8 @@ class SweepPlan {
     int begin, friction_end, end;
   };
 
+  /// Shares some of the work; null: the caller alone.
+  void use_team(WorkerTeam* team) { team_ = team; }
   /// `problem` has the dynamics form.
   void prepare(const FrictionProblem& problem);
 
@@ -54,6 +57,7 @@ class SweepPlan {
   void find_openings(const FrictionProblem& problem);
   int level_of(double opening) const;
   void order(const FrictionProblem& problem);
+  WorkerTeam* team_ = nullptr;
   std::vector<int> ends_;  ///< bodies a and b of each contact between two that move
   std::vector<int> neighbour_begin_, neighbour_;  ///< bodies that share a contact
   /// Breadth-first distance and order; contacts join a level to itself or the next.

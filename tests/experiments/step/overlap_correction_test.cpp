@@ -33,7 +33,8 @@ struct TwoCubes {
     assembler.pack(state, v);
     assembler.assemble({state, contacts, v, h, h}, problem);
     OverlapCorrection correction(system, spec);
-    return correction.apply(assembler, problem, contacts, v, h, state);
+    correction.ask(/*team=*/nullptr, assembler, problem, contacts, v, h);
+    return correction.apply(assembler, problem, state);
   }
   double rise(size_t cube) const {
     return state.pose[cube].position.z() - (cube == 0 ? 0.05 : 0.15 - overlap);

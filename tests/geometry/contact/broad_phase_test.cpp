@@ -122,6 +122,17 @@ TEST_CASE("the list holds every pair within reach, under motion, teleports and c
   }
 }
 
+TEST_CASE("a wide world, which is cut into strips, lists every pair once") {
+  for (const Vec3& stretch : {Vec3(20, 10, 1), Vec3(1, 10, 20), Vec3(10, 1, 1), Vec3(0, 0, 0)}) {
+    World world(700, 9);
+    for (Pose& pose : world.poses) pose.position.array() *= stretch.array();
+    for (const int large : {100, 200, 300}) world.reach[large] = 0.3;
+    BroadPhase broad_phase(world.bodies, 1e-9);
+    broad_phase.update(world.poses, world.rotations(), world.reach);
+    check_list(broad_phase, world);
+  }
+}
+
 TEST_CASE("a slow motion keeps the list, a turn of sign is no motion") {
   World world(60, 5);
   BroadPhase broad_phase(world.bodies, 0.002);
