@@ -46,9 +46,10 @@ double OverlapCorrection::stiffness_of(const FrictionProblem& problem, int c) co
   return compliance > 0.0 ? 1.0 / compliance : 0.0;
 }
 
-void OverlapCorrection::ask(WorkerTeam* team, const ProblemAssembler& assembler,
-                            const FrictionProblem& problem, std::span<const ContactPoint> contacts,
-                            const Eigen::VectorXd& v, double h) {
+void OverlapCorrection::find_targets(WorkerTeam* team, const ProblemAssembler& assembler,
+                                     const FrictionProblem& problem,
+                                     std::span<const ContactPoint> contacts,
+                                     const Eigen::VectorXd& v, double h) {
   rows_.clear();
   const double tolerated = -spec_.slop;
   const auto overlaps = [&](const ContactPoint& c) { return c.gap < tolerated; };

@@ -27,10 +27,11 @@ class OverlapCorrection {
 
   /// How far each contact's bodies must be moved apart. `contacts`, `assembler`, `problem`: of this
   /// step; `v`: unknowns at its end; `h` its length. The team shares the work.
-  void ask(WorkerTeam* team, const ProblemAssembler& assembler, const FrictionProblem& problem,
-           std::span<const ContactPoint> contacts, const Eigen::VectorXd& v, double h);
-  /// Displaces `state`'s poses as ask() found. Returns gravity's potential energy that the
-  /// displacements gave [J] (negative: they lowered it).
+  void find_targets(WorkerTeam* team, const ProblemAssembler& assembler,
+                    const FrictionProblem& problem, std::span<const ContactPoint> contacts,
+                    const Eigen::VectorXd& v, double h);
+  /// Displaces `state`'s poses by what find_targets() found. Returns gravity's potential energy that
+  /// the displacements gave [J] (negative: they lowered it).
   double apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
                MotionState& state);
 
@@ -42,7 +43,7 @@ class OverlapCorrection {
   std::vector<double> inverse_mass_;  // per unknown; 0 for driven walls
   Eigen::VectorXd displacement_;
   std::vector<char> is_displaced_;  // per body of the problem
-  /// Of each contact of the problem; none where nothing is asked.
+  /// Of each contact of the problem; none where nothing overlaps.
   struct Row {
     double target;     // least H_N d [m]
     double stiffness;  // 1 / (H_N M^-1 H_N^T); negative: not yet computed

@@ -255,9 +255,10 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
                    record.iterations + around);
 
   finish_motion(end_time, state);
-  Stopwatch asking;
-  correction_.ask(team_.get(), assembler_, problem_, contacts_, runner_.body_velocity(), h);
-  record.seconds_correct = asking.seconds();
+  Stopwatch finding;
+  correction_.find_targets(team_.get(), assembler_, problem_, contacts_, runner_.body_velocity(),
+                           h);
+  record.seconds_correct = finding.seconds();
   // The books are of the velocities, the correction is of the poses.
   run_parts(team_.get(), 2, [&](int part) {
     if (part) {

@@ -33,7 +33,7 @@ struct TwoCubes {
     assembler.pack(state, v);
     assembler.assemble({state, contacts, v, h, h}, problem);
     OverlapCorrection correction(system, spec);
-    correction.ask(/*team=*/nullptr, assembler, problem, contacts, v, h);
+    correction.find_targets(/*team=*/nullptr, assembler, problem, contacts, v, h);
     return correction.apply(assembler, problem, state);
   }
   double rise(size_t cube) const {
