@@ -30,8 +30,8 @@ class OverlapCorrection {
   void find_targets(WorkerTeam* team, const ProblemAssembler& assembler,
                     const FrictionProblem& problem, std::span<const ContactPoint> contacts,
                     const Eigen::VectorXd& v, double h);
-  /// Displaces `state`'s poses by what find_targets() found. Returns gravity's potential energy that
-  /// the displacements gave [J] (negative: they lowered it).
+  /// Displaces `state`'s poses by what find_targets() found. Returns the potential energy that the
+  /// displacements gave [J] (negative: they lowered it).
   double apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
                MotionState& state);
 
