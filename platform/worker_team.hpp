@@ -127,4 +127,12 @@ void run_ranges(WorkerTeam* team, int count, int together, const Task& task) {
   });
 }
 
+/// task(i) for every i in [0, count), so many together: for what each i has to itself.
+template <typename Task>
+void run_each(WorkerTeam* team, int count, int together, const Task& task) {
+  run_ranges(team, count, together, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) task(i);
+  });
+}
+
 }  // namespace ballast

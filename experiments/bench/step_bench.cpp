@@ -33,7 +33,6 @@ struct StepWork {
   ProblemAssembler assembler;
   ContactJudge judge;
   Eigen::VectorXd v_free;
-  FrictionProblem problem;
   Impulses warm;
 
   StepWork(const DepositedBox& box, int steps)
@@ -42,13 +41,13 @@ struct StepWork {
         stepper(start.system, box.scene, start.system.first_driven_wall()),
         assembler(start.system) {
     for (int k = 0; k < steps; ++k) stepper.step(start.state, start.memory);
-    stepper.warm_start(warm);
+    stepper.warm_start(start.memory, warm);
     assembler.pack(start.state, v_free);
     assemble();
   }
   void assemble() {
     const double end = start.state.time + h;
-    assembler.assemble({start.state, stepper.contacts(), v_free, h, end}, problem);
+    assembler.assemble({start.state, start.memory.contacts, v_free, h, end});
   }
 };
 
@@ -179,12 +178,13 @@ std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
     kernels.push_back({"detection", use_cache ? "axes kept" : "from scratch", "ns/pair",
                        std::max(1.0, pairs), [work] { work->all(); }});
   }
-  const double contacts = std::max(1, step->problem.contact_count());
+  const double contacts = std::max(1, step->assembler.problem().contact_count());
   const auto add = [&](const char* group, const std::string& name, std::function<void()> call) {
     kernels.push_back({group, name, "ns/contact", contacts, std::move(call)});
   };
   add("problem", "assembly", [step] { step->assemble(); });
-  add("problem", "judge", [step] { step->judge.judge(step->problem, step->stepper.impulses()); });
+  add("problem", "judge",
+      [step] { step->judge.judge(step->assembler.problem(), step->stepper.impulses()); });
   for (const bool in_single : {false, true}) {
     const auto work = std::make_shared<SweepWork>(*step, in_single);
     const std::string how = in_single ? " in float lanes" : "";

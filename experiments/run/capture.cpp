@@ -51,13 +51,13 @@ StepCapture::StepCapture(const CaptureSettings& settings, std::filesystem::path 
     : settings_(settings), folder_(std::move(folder)), h_(h), g_(g) {}
 
 void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
-                          const StepRecord& record) {
+                          const StepMemory& memory, const StepRecord& record) {
   fastest_wall_ = std::max(fastest_wall_, std::abs(record.wall_v));
   if (!settings_.takes(state.step)) return;
   CapturedProblem captured;
   captured.problem = stepper.problem();
   captured.solution = stepper.impulses();
-  stepper.warm_start(captured.start);
+  stepper.warm_start(memory, captured.start);
   captured.h = h_;
   captured.g = g_;
   captured.step = static_cast<int>(state.step);
@@ -68,7 +68,7 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
   captured.load = record.load;
   // Of each contact what a solver may not need, but whoever looks at its answer does.
   for (const int c : stepper.assembler().detected()) {
-    const ContactPoint& contact = stepper.contacts()[static_cast<size_t>(c)];
+    const ContactPoint& contact = memory.contacts[static_cast<size_t>(c)];
     captured.gap.push_back(contact.gap);
     captured.position.insert(captured.position.end(), contact.position.data(),
                              contact.position.data() + 3);

@@ -33,7 +33,8 @@ class StepCapture {
   StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g);
 
   /// After a step. Throws Error.
-  void observe(const TimeStepper& stepper, const MotionState& state, const StepRecord& record);
+  void observe(const TimeStepper& stepper, const MotionState& state, const StepMemory& memory,
+               const StepRecord& record);
 
  private:
   CaptureSettings settings_;

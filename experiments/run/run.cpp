@@ -210,7 +210,7 @@ class Run {
       if (run_.control_volume)
         record.solid_fraction =
             run_.control_volume->solid_fraction(run_.system, run_.state, stepper.team());
-      capture.observe(stepper, run_.state, record);
+      capture.observe(stepper, run_.state, run_.memory, record);
       record.seconds_other += watch.seconds();
 
       recorder.add_step(record);

@@ -47,9 +47,9 @@ double OverlapCorrection::stiffness_of(const FrictionProblem& problem, int c) co
 }
 
 void OverlapCorrection::find_targets(WorkerTeam* team, const ProblemAssembler& assembler,
-                                     const FrictionProblem& problem,
                                      std::span<const ContactPoint> contacts,
                                      const Eigen::VectorXd& v, double h) {
+  const FrictionProblem& problem = assembler.problem();
   rows_.clear();
   const double tolerated = -spec_.slop;
   const auto overlaps = [&](const ContactPoint& c) { return c.gap < tolerated; };
@@ -68,9 +68,9 @@ void OverlapCorrection::find_targets(WorkerTeam* team, const ProblemAssembler& a
   });
 }
 
-double OverlapCorrection::apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
-                                MotionState& state) {
+double OverlapCorrection::apply(const ProblemAssembler& assembler, MotionState& state) {
   if (rows_.empty()) return 0.0;
+  const FrictionProblem& problem = assembler.problem();
   // Projected Gauss-Seidel on displacements: pushes only push (>= 0), heavy bodies move less.
   displacement_.setZero();
   is_displaced_.assign(problem.dynamics.body_count(), 0);

@@ -25,15 +25,13 @@ class OverlapCorrection {
  public:
   OverlapCorrection(const MechanicalSystem& system, const CorrectionSpec& spec);
 
-  /// How far each contact's bodies must be moved apart. `contacts`, `assembler`, `problem`: of this
-  /// step; `v`: unknowns at its end; `h` its length. The team shares the work.
+  /// How far each contact's bodies must be moved apart. `contacts`, `assembler`: of this step; `v`:
+  /// unknowns at its end; `h` its length. The team shares the work.
   void find_targets(WorkerTeam* team, const ProblemAssembler& assembler,
-                    const FrictionProblem& problem, std::span<const ContactPoint> contacts,
-                    const Eigen::VectorXd& v, double h);
+                    std::span<const ContactPoint> contacts, const Eigen::VectorXd& v, double h);
   /// Displaces `state`'s poses by what find_targets() found. Returns the potential energy that the
   /// displacements gave [J] (negative: they lowered it).
-  double apply(const ProblemAssembler& assembler, const FrictionProblem& problem,
-               MotionState& state);
+  double apply(const ProblemAssembler& assembler, MotionState& state);
 
  private:
   double stiffness_of(const FrictionProblem& problem, int c) const;

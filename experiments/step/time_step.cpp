@@ -14,7 +14,7 @@ namespace {
 
 /// Bound on how far any point of the body moves in h, with what gravity and forces of the order of
 /// g may add.
-double reach_of(const RigidBody& body, const MotionState& state, size_t b, double h, double g) {
+double reach_of(const RigidBody& body, const MotionState& state, int b, double h, double g) {
   const double radius = body.shape.polyhedron ? body.shape.polyhedron->circumradius() : 0.0;
   if (body.imposed) {
     const Pose next = body.imposed->motion.pose_at(state.time + 1.5 * h, body.imposed->start);
@@ -74,50 +74,64 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int
   detector_.use_team(team_.get(), parts_of_thread * spec_.threads);
 }
 
-void TimeStepper::free_motion(const MotionState& state, double mid_time) {
-  // unknowns: translations of bodies along their free axes, spins in the body frame, outward speeds
-  // of driven walls
-  assembler_.pack(state, v_before_);
-  force_.setZero(v_before_.size());       // h f, per unknown
-  gyroscopic_.setZero(v_before_.size());  // impulse of the gyroscopic term
-  Eigen::VectorXd& v_free = problem_.dynamics.v_free;
-  v_free = v_before_;
+/// Of one body, whose velocities have been packed.
+void TimeStepper::free_motion(int b, const MotionState& state, double mid_time) {
+  const int first = assembler_.first_dof(b);
+  if (first < 0) return;
+  const RigidBody& body = system_.bodies[b];
   const double h = h_;
-  for (size_t b = 0; b < system_.bodies.size(); ++b) {
-    const int first = assembler_.first_dof(static_cast<int>(b));
-    if (first < 0) continue;
-    const RigidBody& body = system_.bodies[b];
-    Vec3 force = body.force.at(mid_time);
-    if (body.is_wall()) force = body.wall.load.at(mid_time) * body.wall.normal;
-    // M (v_free - v) = h f(t_mid) + h M g along the free axes; of a wall the load alone, h f.
-    for (int d = 0; d < body.freedom.translations; ++d) {
-      const Vec3 axis = body.freedom.axes.col(d);
-      force_[first + d] = h * axis.dot(force);
-      const double gravity = body.is_wall() ? 0.0 : h * axis.dot(system_.gravity);
-      v_free[first + d] += gravity + force_[first + d] / body.mass;
-    }
-    // The gyroscopic term is solved for here, once, and not with the contacts.
-    if (!body.freedom.rotation) continue;
-    const int spin = first + body.freedom.translations;
-    const Vec3 after = free_spin(body.inertia, state.spin[b], h);
-    gyroscopic_.segment<3>(spin) = body.inertia.cwiseProduct(after - state.spin[b]);
-    v_free.segment<3>(spin) = after;
+  Vec3 force = body.force.at(mid_time);
+  if (body.is_wall()) force = body.wall.load.at(mid_time) * body.wall.normal;
+  // M (v_free - v) = h f(t_mid) + h M g along the free axes; of a wall the load alone, h f.
+  for (int d = first; d < first + body.freedom.translations; ++d) {
+    const Vec3 axis = body.freedom.axes.col(d - first);
+    force_[d] = h * axis.dot(force);
+    const double gravity = body.is_wall() ? 0.0 : h * axis.dot(system_.gravity);
+    v_free()[d] = v_before_[d] + (gravity + force_[d] / body.mass);
+    gyroscopic_[d] = 0.0;
   }
+  // The gyroscopic term is solved for here, once, and not with the contacts.
+  if (!body.freedom.rotation) return;
+  const int spin = first + body.freedom.translations;
+  const Vec3 after = free_spin(body.inertia, state.spin[b], h);
+  force_.segment<3>(spin).setZero();
+  gyroscopic_.segment<3>(spin) = body.inertia.cwiseProduct(after - state.spin[b]);
+  v_free().segment<3>(spin) = after;
 }
 
-void TimeStepper::detect(const MotionState& mid) {
+void TimeStepper::detect(const MotionState& mid, std::vector<ContactPoint>& contacts) {
   const double g = system_.gravity.norm();
   // Two bodies further apart than the sum of their reaches cannot touch within the step.
-  for_bodies([&](size_t b) { reach_[b] = reach_of(system_.bodies[b], mid, b, h_, g); });
-  detector_.detect(mid.pose, reach_, contacts_);
+  for_bodies([&](int b) { reach_[b] = reach_of(system_.bodies[b], mid, b, h_, g); });
+  detector_.detect(mid.pose, reach_, contacts);
 }
 
 /// A contact that was there in the last step begins with the impulse that it had then.
 void TimeStepper::carry(const StepMemory& memory) {
   if (spec_.warm_start)
-    carry_impulses(memory.contacts, memory.impulses, contacts_, carried_);
+    carry_impulses(old_contacts_, memory.impulses, memory.contacts, carried_);
   else
-    carried_.assign(contacts_.size(), Vec3::Zero());
+    carried_.assign(memory.contacts.size(), Vec3::Zero());
+}
+
+/// All that waits only for the contacts: carried impulses, the layout of the problem, and the
+/// velocities that the bodies would have without contacts.
+void TimeStepper::begin_problem(const MotionState& state, const StepMemory& memory,
+                                double mid_time) {
+  // unknowns: translations of bodies along their free axes, spins in the body frame, outward speeds
+  // of driven walls
+  assembler_.pack(state, v_before_);
+  for (Eigen::VectorXd* unknowns : {&v_free(), &force_, &gyroscopic_})
+    unknowns->resize(v_before_.size());
+  constexpr int together = 256;
+  const int bodies = static_cast<int>(system_.bodies.size());
+  run_parts(team_.get(), 2 + (bodies + together - 1) / together, [&](int part) {
+    if (part == 0) return carry(memory);
+    if (part == 1) return assembler_.lay_out(memory.contacts);
+    const int begin = (part - 2) * together;
+    for (int b = begin; b < std::min(begin + together, bodies); ++b)
+      free_motion(b, state, mid_time);
+  });
 }
 
 void require_finite(const SolverRun& run, const std::string& solver, double time) {
@@ -129,12 +143,12 @@ void require_finite(const SolverRun& run, const std::string& solver, double time
 }
 
 void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
-  assembler_.to_rows(carried_, contacts_, impulses_);
+  assembler_.to_rows(carried_, memory.contacts, impulses_);
   const Budget budget{.tolerance = spec_.tolerance * velocity_scale_,
                       .max_iterations = spec_.max_iterations,
                       .max_seconds = spec_.max_seconds};
   // validates, solves and judges; the judge's error is what the record says
-  SolverRun run = impact_law_.solve(runner_, *solver_, problem_, assembler_.rebound(),
+  SolverRun run = impact_law_.solve(runner_, *solver_, assembler_.problem(), assembler_.rebound(),
                                     assembler_.restitution(), std::move(impulses_), budget);
   require_finite(run, spec_.name, record.time);
   impulses_ = std::move(run.solved.impulses);
@@ -144,19 +158,18 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   record.solved = run.error.within(budget.tolerance);
   record.restitution = impact_law_.least_restitution();
   record.seconds_solve = run.prepare_seconds + run.solve_seconds + run.startup_seconds;
-  memory.contacts = contacts_;
-  assembler_.to_world(impulses_, contacts_, memory.impulses);
+  assembler_.to_world(impulses_, memory.contacts, memory.impulses);
 }
 
 /// Works on the mean velocity of the step, each on its own; u_mean = H v_mean + velocity of
 /// prescribed walls.
-void TimeStepper::account_energy(double mid_time, StepRecord& record) {
+void TimeStepper::account_energy(double mid_time, const StepMemory& memory, StepRecord& record) {
   const Eigen::VectorXd& v0 = v_before_;
   const Eigen::VectorXd& v1 = runner_.body_velocity();
   const std::vector<double>& mass = assembler_.mass();
   const double contact_power =
       0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
-  const double wall_power = assembler_.imposed_power(contacts_, mid_time, impulses_);
+  const double wall_power = assembler_.imposed_power(memory.contacts, mid_time, impulses_);
   record.dissipated = -(contact_power + wall_power);
   // T' - T = (v' - v) . M v_mean: the work of each impulse of the step is its product with the mean
   // of the velocities before and after.
@@ -182,17 +195,16 @@ void TimeStepper::account_energy(double mid_time, StepRecord& record) {
 }
 
 /// -L of impact_law.hpp where that is positive. Without error L = r . W r / 2 - r . u >= 0.
-double TimeStepper::gained_energy(double end_time) {
+double TimeStepper::gained_energy(double end_time, const StepMemory& memory) {
   // -L = r . (u + u_f) / 2 = H^T r . (v' + v_free) / 2 + r . (velocity of the walls).
-  const double given =
-      0.5 * runner_.body_impulse().dot(runner_.body_velocity() + problem_.dynamics.v_free) +
-      assembler_.imposed_power(contacts_, end_time, impulses_);
+  const double given = 0.5 * runner_.body_impulse().dot(runner_.body_velocity() + v_free()) +
+                       assembler_.imposed_power(memory.contacts, end_time, impulses_);
   return std::max(0.0, given);
 }
 
 void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record) {
-  for (int c = 0; c < problem_.contact_count(); ++c)
-    record.active_contacts += impulses_[problem_.row_begin[c]] > 0.0;
+  for (int c = 0; c < problem().contact_count(); ++c)
+    record.active_contacts += impulses_[problem().row_begin[c]] > 0.0;
   double overlap = 0.0;
   for (size_t c = 0; c < memory.contacts.size(); ++c) {
     const ContactPoint& contact = memory.contacts[c];
@@ -203,14 +215,14 @@ void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record)
     if (driven_wall_ >= 0 && (contact.body_a == driven_wall_ || contact.body_b == driven_wall_))
       record.wall_force += std::abs(memory.impulses[c].dot(contact.normal)) / h_;
   }
-  record.contacts = static_cast<double>(contacts_.size());
+  record.contacts = static_cast<double>(memory.contacts.size());
   if (record.active_contacts > 0) record.penetration_mean = overlap / record.active_contacts;
 }
 
 /// The second half of the motion, with the new velocities.
 void TimeStepper::finish_motion(double end_time, MotionState& state) {
   assembler_.unpack(runner_.body_velocity(), state);
-  for_bodies([&](size_t b) {
+  for_bodies([&](int b) {
     if (system_.bodies[b].imposed) {
       follow(system_.bodies[b], end_time, state.pose[b], state.velocity[b], state.spin[b]);
       return;
@@ -232,20 +244,21 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   //
   //     q -- h/2 v --> q_m: contacts are found, impulses r and v' follow -- h/2 v' --> q'
   detect_pace_.begin(team_.get());
-  for_bodies([&](size_t b) {
+  for_bodies([&](int b) {
     if (const auto& imposed = system_.bodies[b].imposed)
       state.pose[b] = imposed->motion.pose_at(mid_time, imposed->start);
     else
       state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
   });
   record.seconds_other = clock.restart();
-  detect(state);
+  memory.contacts.swap(old_contacts_);
+  detect(state, memory.contacts);
   record.seconds_detect = clock.restart();
   detect_pace_.took(record.seconds_detect);
-  run_parts(team_.get(), 2, [&](int part) { part ? carry(memory) : free_motion(state, mid_time); });
+  begin_problem(state, memory, mid_time);
   record.seconds_other += clock.restart();
   solve_pace_.begin(team_.get());  // assembled by those who solve, whose cores then have it
-  assembler_.assemble({state, contacts_, problem_.dynamics.v_free, h, end_time}, problem_);
+  assembler_.fill({state, memory.contacts, v_free(), h, end_time});
   record.seconds_assemble = clock.restart();
   solve(memory, record);
   record.seconds_judge = clock.restart() - record.seconds_solve;
@@ -256,19 +269,18 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
 
   finish_motion(end_time, state);
   Stopwatch finding;
-  correction_.find_targets(team_.get(), assembler_, problem_, contacts_, runner_.body_velocity(),
-                           h);
+  correction_.find_targets(team_.get(), assembler_, memory.contacts, runner_.body_velocity(), h);
   record.seconds_correct = finding.seconds();
   // The books are of the velocities, the correction is of the poses.
   run_parts(team_.get(), 2, [&](int part) {
     if (part) {
-      account_energy(mid_time, record);
-      record.energy_gained = gained_energy(end_time);
+      account_energy(mid_time, memory, record);
+      record.energy_gained = gained_energy(end_time, memory);
       account_contacts(memory, record);
       return;
     }
     Stopwatch own;
-    record.work_correction = correction_.apply(assembler_, problem_, state);
+    record.work_correction = correction_.apply(assembler_, state);
     record.seconds_correct += own.seconds();
   });
   record.seconds_other += std::max(0.0, clock.restart() - record.seconds_correct);

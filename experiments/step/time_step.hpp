@@ -41,13 +41,16 @@ class TimeStepper {
   /// then left within the step.
   StepRecord step(MotionState& state, StepMemory& memory);
 
-  /// The problem solved last, its solution, and the contacts it came from: for capture and export.
-  const FrictionProblem& problem() const { return problem_; }
+  /// The problem solved last and its solution, for capture and export. StepMemory has the contacts
+  /// that it came from.
+  const FrictionProblem& problem() const { return assembler_.problem(); }
   const Impulses& impulses() const { return impulses_; }
   const ProblemAssembler& assembler() const { return assembler_; }
-  const std::vector<ContactPoint>& contacts() const { return contacts_; }
-  /// The impulses from which its solution was begun, rows as in the problem.
-  void warm_start(Impulses& rows) const { assembler_.to_rows(carried_, contacts_, rows); }
+  /// The impulses from which its solution was begun, rows as in the problem. `memory`: of that
+  /// step.
+  void warm_start(const StepMemory& memory, Impulses& rows) const {
+    assembler_.to_rows(carried_, memory.contacts, rows);
+  }
   const DetectionCounters& detection_counters() const { return detector_.counters(); }
   /// For what is done between steps; null: there is one thread.
   WorkerTeam* team() const { return team_.get(); }
@@ -56,17 +59,17 @@ class TimeStepper {
   /// Calls task(body) for all, shared among the team.
   template <typename Task>
   void for_bodies(const Task& task) {
-    const int count = static_cast<int>(system_.bodies.size());
-    run_ranges(team_.get(), count, /*together=*/256, [&](int begin, int end) {
-      for (int b = begin; b < end; ++b) task(static_cast<size_t>(b));
-    });
+    run_each(team_.get(), static_cast<int>(system_.bodies.size()), /*together=*/256, task);
   }
-  void free_motion(const MotionState& state, double mid_time);
-  void detect(const MotionState& mid);
+  /// Written where the problem has them.
+  Eigen::VectorXd& v_free() { return assembler_.problem().dynamics.v_free; }
+  void free_motion(int b, const MotionState& state, double mid_time);
+  void begin_problem(const MotionState& state, const StepMemory& memory, double mid_time);
+  void detect(const MotionState& mid, std::vector<ContactPoint>& contacts);
   void carry(const StepMemory& memory);
   void solve(StepMemory& memory, StepRecord& record);
-  void account_energy(double mid_time, StepRecord& record);
-  double gained_energy(double end_time);
+  void account_energy(double mid_time, const StepMemory& memory, StepRecord& record);
+  double gained_energy(double end_time, const StepMemory& memory);
   void account_contacts(const StepMemory& memory, StepRecord& record);
   void finish_motion(double end_time, MotionState& state);
 
@@ -83,12 +86,12 @@ class TimeStepper {
   SolverRunner runner_;
   ImpactLaw impact_law_;
 
-  FrictionProblem problem_;
   Impulses impulses_;
   std::vector<double> reach_;
-  std::vector<ContactPoint> contacts_;
+  std::vector<ContactPoint> old_contacts_;
   std::vector<Vec3> carried_;
-  Eigen::VectorXd v_before_, force_, gyroscopic_;
+  Eigen::VectorXd v_before_;
+  Eigen::VectorXd force_, gyroscopic_;  // h f, and the impulse of the gyroscopic term
 };
 
 /// Angular velocity after a free flight of h, torque-free: implicit mid-point rule of Euler's

@@ -43,6 +43,7 @@ void BroadPhase::update(std::span<const Pose> poses, std::span<const Mat3> rotat
   if (still_valid(poses, reach)) return;
   list_boxes(poses, rotations, reach);
   find_overlaps();
+  sort_found();
   list_pairs();
   ++rebuilds_;
 }
@@ -64,7 +65,8 @@ void BroadPhase::list_boxes(std::span<const Pose> poses, std::span<const Mat3> r
                             std::span<const double> reach) {
   listed_pose_.assign(poses.begin(), poses.end());
   allowance_.assign(reach.begin(), reach.end());
-  for (const int i : order_) {
+  run_each(team_, static_cast<int>(order_.size()), /*together=*/64, [&](int k) {
+    const int i = order_[k];
     const CollisionShape& shape = *bodies_[i].shape;
     // The margin beyond the reach is what a body may move before the list is made anew: a large one
     // makes few lists with many pairs, a small one the reverse.
@@ -72,13 +74,12 @@ void BroadPhase::list_boxes(std::span<const Pose> poses, std::span<const Mat3> r
     boxes_[i] = bounding_box(shape, rotations[i], poses[i].position);
     boxes_[i].low.array() -= allowance_[i];
     boxes_[i].high.array() += allowance_[i];
-  }
+  });
 }
 
 /// Sort and prune, strip by strip: boxes lie in strips across one direction, and within a strip
 /// only boxes that overlap along another are compared.
 void BroadPhase::find_overlaps() {
-  found_.clear();
   if (order_.empty()) return;
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300), width = Vec3::Zero();
   for (const int i : order_) {
@@ -103,12 +104,13 @@ void BroadPhase::find_overlaps() {
     return share > 0.0 ? static_cast<int>(std::min(share, 1.0) * (count - 1)) : 0;
   };
   strips_.resize(count);
-  for (std::vector<int>& strip : strips_) strip.clear();
+  for (Strip& strip : strips_) strip.bodies.clear();
   for (const int i : order_)
     for (int s = strip_of(boxes_[i].low[axis[1]]); s <= strip_of(boxes_[i].high[axis[1]]); ++s)
-      strips_[s].push_back(i);
-  for (int s = 0; s < count; ++s)
+      strips_[s].bodies.push_back(i);
+  run_parts(team_, count, [&](int s) {
     compare_boxes(strips_[s], axis, [&](double begin) { return strip_of(begin) == s; });
+  });
 }
 
 /// Of the boxes of a strip, in the order in which they begin along axis[0]:
@@ -119,32 +121,51 @@ void BroadPhase::find_overlaps() {
 ///
 /// A pair is found in the strip alone in which its overlap begins: `is_here`.
 template <class IsHere>
-void BroadPhase::compare_boxes(const std::vector<int>& strip, const int (&axis)[3],
-                               const IsHere& is_here) {
+void BroadPhase::compare_boxes(Strip& strip, const int (&axis)[3], const IsHere& is_here) const {
+  struct Interval {
+    double low, high;
+  };
+  thread_local std::vector<Interval> sorted[3];  // the boxes along each direction
   for (int d = 0; d < 3; ++d) {
-    sorted_[d].clear();
-    for (const int i : strip)
-      sorted_[d].push_back({boxes_[i].low[axis[d]], boxes_[i].high[axis[d]]});
+    sorted[d].clear();
+    for (const int i : strip.bodies)
+      sorted[d].push_back({boxes_[i].low[axis[d]], boxes_[i].high[axis[d]]});
   }
+  const auto& [first, second, third] = sorted;
+  strip.found.clear();
   const auto overlaps = [](const Interval& p, const Interval& q) {
     return (q.low <= p.high) & (q.high >= p.low);
   };
-  for (size_t k = 0; k < strip.size(); ++k) {
-    const Interval along = sorted_[0][k], second = sorted_[1][k], third = sorted_[2][k];
-    for (size_t l = k + 1; l < strip.size() && sorted_[0][l].low <= along.high; ++l) {
-      if (!(overlaps(second, sorted_[1][l]) & overlaps(third, sorted_[2][l]))) continue;
-      const int i = strip[k], j = strip[l];
-      if (!bodies_[i].meets(bodies_[j]) || !is_here(std::max(second.low, sorted_[1][l].low)))
+  for (size_t k = 0; k < first.size(); ++k)
+    for (size_t l = k + 1; l < first.size() && first[l].low <= first[k].high; ++l) {
+      if (!(overlaps(second[k], second[l]) & overlaps(third[k], third[l]))) continue;
+      const int i = strip.bodies[k], j = strip.bodies[l];
+      if (!bodies_[i].meets(bodies_[j]) || !is_here(std::max(second[k].low, second[l].low)))
         continue;
-      found_.emplace_back(std::min(i, j), std::max(i, j));
+      strip.found.emplace_back(std::min(i, j), std::max(i, j));
     }
-  }
+}
+
+/// What the strips have found by (a, b), and where each a begins: dealt out by a, then the few of
+/// each a sorted.
+void BroadPhase::sort_found() {
+  std::fill(first_.begin(), first_.end(), 0);
+  for (const Strip& strip : strips_)
+    for (const auto& [a, b] : strip.found) ++first_[a + 1];
+  for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
+  found_.resize(first_.back());
+  for (const Strip& strip : strips_)
+    for (const Found& pair : strip.found) found_[first_[pair.first]++] = pair;
+  // Each first has been moved to where the next begins.
+  std::shift_right(first_.begin(), first_.end(), 1);
+  first_[0] = 0;
+  run_each(team_, static_cast<int>(bodies_.size()), /*together=*/256,
+           [&](int a) { std::sort(found_.begin() + first_[a], found_.begin() + first_[a + 1]); });
 }
 
 /// What has been found becomes the list. Both are sorted by (a, b): pairs that stay move to their
 /// new places, with what is known of them.
 void BroadPhase::list_pairs() {
-  std::sort(found_.begin(), found_.end());
   auto next = found_.begin();
   std::erase_if(pairs_, [&](const CandidatePair& pair) {
     next = std::find_if(next, found_.end(), [key = std::pair(pair.a, pair.b)](const auto& found) {
@@ -152,7 +173,6 @@ void BroadPhase::list_pairs() {
     });
     return next == found_.end() || *next != std::pair(pair.a, pair.b);
   });
-  std::fill(first_.begin(), first_.end(), 0);
   // From the end on, so that no pair is written over before it has moved.
   size_t stays = pairs_.size();
   pairs_.resize(found_.size());
@@ -160,9 +180,7 @@ void BroadPhase::list_pairs() {
     const auto [a, b] = found_[k];
     const bool is_old = stays > 0 && pairs_[stays - 1].a == a && pairs_[stays - 1].b == b;
     pairs_[k] = is_old ? pairs_[--stays] : CandidatePair{.a = a, .b = b};
-    ++first_[a + 1];
   }
-  for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
 }
 
 }  // namespace ballast

@@ -3,9 +3,11 @@
 // is used up.
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/contact/separating_axis.hpp"
+#include "platform/worker_team.hpp"
 
 namespace ballast {
 
@@ -59,6 +61,9 @@ class BroadPhase {
   void update(std::span<const Pose> poses, std::span<const Mat3> rotations,
               std::span<const double> reach);
 
+  /// Shares the work of update(); null: alone. The same list either way.
+  void use_team(WorkerTeam* team) { team_ = team; }
+
   /// Sorted by (a, b).
   std::span<CandidatePair> pairs() { return pairs_; }
   std::span<const CandidatePair> pairs() const { return pairs_; }
@@ -71,8 +76,16 @@ class BroadPhase {
   void list_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
                   std::span<const double> reach);
   void find_overlaps();
+  using Found = std::pair<int, int>;  // bodies a < b whose boxes overlap
+  /// Polyhedra that lie beside each other in one direction, by the low end of their boxes in
+  /// another.
+  struct Strip {
+    std::vector<int> bodies;
+    std::vector<Found> found;
+  };
   template <class IsHere>
-  void compare_boxes(const std::vector<int>& strip, const int (&axis)[3], const IsHere& is_here);
+  void compare_boxes(Strip& strip, const int (&axis)[3], const IsHere& is_here) const;
+  void sort_found();
   void list_pairs();
 
   std::vector<Body> bodies_;
@@ -83,14 +96,11 @@ class BroadPhase {
       allowance_;              // how far a body's surface may get from there, reach included [m]
   std::vector<Bounds> boxes_;  // grown by the allowance
   std::vector<int> order_;     // polyhedra, by the low end of their boxes
-  std::vector<std::vector<int>> strips_;  // the same, by where they lie in a second direction
-  struct Interval {
-    double low, high;
-  };
-  std::vector<Interval> sorted_[3];  // of a strip's boxes in its order, along each direction
-  std::vector<std::pair<int, int>> found_;
+  std::vector<Strip> strips_;
+  std::vector<Found> found_;  // in all strips, sorted
   std::vector<CandidatePair> pairs_;
   std::vector<int> first_;
+  WorkerTeam* team_ = nullptr;
   long rebuilds_ = 0;
 };
 

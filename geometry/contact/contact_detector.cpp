@@ -83,6 +83,7 @@ const DetectionCounters& ContactDetector::counters() const { return state_->coun
 void ContactDetector::use_team(WorkerTeam* team, int parts) {
   State& s = *state_;
   s.team = team;
+  s.broad_phase.use_team(team);
   while (static_cast<int>(s.parts.size()) < parts) s.parts.emplace_back(s.bodies, s.settings);
   s.share();
 }
@@ -98,7 +99,7 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
     reach = s.elements->reach();
   }
   // Rotations of all bodies once, then the pairs that may touch, then each part's run of pairs.
-  s.bodies.take(poses, reach);
+  s.bodies.take(poses, reach, s.team);
   const long rebuilds = s.broad_phase.rebuilds();
   s.broad_phase.update(poses, s.bodies.rotations, s.bodies.reach);
   if (s.broad_phase.rebuilds() != rebuilds) s.share();
@@ -110,6 +111,9 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   // Part 0 has written to `contacts`; the others' follow in order.
   s.counters = DetectionCounters{};
   s.counters.broad_phase_rebuilds = s.broad_phase.rebuilds();
+  size_t count = contacts.size();
+  for (size_t k = 1; k < s.parts.size(); ++k) count += s.parts[k].found.size();
+  if (count > contacts.capacity()) contacts.reserve(count + count / 8);  // room for later steps
   for (size_t k = 0; k < s.parts.size(); ++k) {
     s.counters += s.parts[k].counters();
     if (k > 0) contacts.insert(contacts.end(), s.parts[k].found.begin(), s.parts[k].found.end());

@@ -26,18 +26,20 @@ DetectedBodies::DetectedBodies(std::vector<ContactShape> bodies)
   for (int i = 0; i < count(); ++i) bounds.push_back(shape(i) ? shape(i)->bounds() : BodyBounds{});
 }
 
-void DetectedBodies::take(std::span<const Pose> new_poses, std::span<const double> new_reach) {
+void DetectedBodies::take(std::span<const Pose> new_poses, std::span<const double> new_reach,
+                          WorkerTeam* team) {
   poses = new_poses;
   reach = new_reach;
-  for (size_t i = 0; i < poses.size(); ++i) rotations[i] = poses[i].rotation.toRotationMatrix();
-  // Motion summed up step by step: of two times, the difference of the
-  // sums bounds the motion between.
-  for (size_t i = 0; i < previous_.size(); ++i) {
+  if (previous_.empty()) previous_.assign(poses.begin(), poses.end());
+  run_each(team, count(), /*together=*/256, [&](int i) {
+    rotations[i] = poses[i].rotation.toRotationMatrix();
+    // Motion summed up step by step: of two times, the difference of the sums bounds the motion
+    // between.
     const Travel step = step_bound(previous_[i], poses[i]);
     travel[i].shift += step.shift;
     travel[i].turn += step.turn;
-  }
-  previous_.assign(poses.begin(), poses.end());
+    previous_[i] = poses[i];
+  });
 }
 
 DetectionPart::DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings)

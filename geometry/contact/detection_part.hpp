@@ -9,6 +9,7 @@
 #include "geometry/contact/broad_phase.hpp"
 #include "geometry/contact/contact_point.hpp"
 #include "geometry/contact/touching_pair.hpp"
+#include "platform/worker_team.hpp"
 
 namespace ballast {
 
@@ -17,8 +18,9 @@ namespace ballast {
 struct DetectedBodies {
   explicit DetectedBodies(std::vector<ContactShape> bodies);
 
-  /// The poses and reaches of this call; both must outlive it.
-  void take(std::span<const Pose> new_poses, std::span<const double> new_reach);
+  /// The poses and reaches of this call; both must outlive it. The team shares the work.
+  void take(std::span<const Pose> new_poses, std::span<const double> new_reach,
+            WorkerTeam* team = nullptr);
 
   int count() const { return static_cast<int>(shapes.size()); }
   /// Null for a plane.

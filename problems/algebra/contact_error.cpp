@@ -159,15 +159,16 @@ ContactError infinite_error() {
 }
 
 /// max |M (v - v_free) - H^T r| with p = H^T r.
-double momentum_residual(const DynamicsForm& dynamics, const Eigen::VectorXd& v,
-                         const Eigen::VectorXd& p) {
+double momentum_residual(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots,
+                         const Eigen::VectorXd& v, const Eigen::VectorXd& p) {
   double worst = 0.0;
   for (int b = 0; b < dynamics.body_count(); ++b) {
     const int dofs = dynamics.body_dofs(b), first = dynamics.dof_begin[b];
     const double* block = dynamics.mass.data() + dynamics.mass_begin[b];
     for (int i = 0; i < dofs; ++i) {
       double sum = -p[first + i];
-      for (int k = 0; k < dofs; ++k)
+      const bool own = roots[b].diagonal;  // the one entry that is not zero
+      for (int k = own ? i : 0; k < (own ? i + 1 : dofs); ++k)
         sum += block[k * dofs + i] * (v[first + k] - dynamics.v_free[first + k]);
       worst = std::max(worst, std::abs(sum));
     }
@@ -281,17 +282,28 @@ double largest_eigenvalue(const Eigen::Matrix3d& w) {
 
 void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
                                              const std::vector<int>& row_begin, const Impulses& r) {
+  // Each thread adds up what a share of the bodies gets, in the order of the contacts.
+  const int bodies = dynamics.body_count(), shares = size_of(team_);
+  const auto share = [=](int k) {
+    return static_cast<int>(static_cast<long>(bodies) * k / shares);
+  };
+  hr_.resize(dynamics.dof_count());
   bool are_known = false;
-  run_parts(team_, 2, [&](int part) {
-    if (part)
+  run_parts(team_, shares + 1, [&](int k) {
+    if (k == shares)
       are_known = masses_.are_of(dynamics);
     else
-      contact_to_body_impulse(dynamics, row_begin, r, hr_);
+      contact_to_body_impulse(dynamics, row_begin, r, share(k), share(k + 1), hr_);
   });
   if (!are_known) masses_.keep(dynamics);
-  v_ = hr_;
-  solve_masses(dynamics, masses_.roots(), v_);
-  v_ += dynamics.v_free;
+  // v = v_free + M^-1 H^T r
+  v_.resize(hr_.size());
+  run_each(team_, bodies, /*together=*/256, [&](int b) {
+    const auto rows = Eigen::seqN(dynamics.dof_begin[b], dynamics.body_dofs(b));
+    v_(rows) = hr_(rows);
+    masses_.roots()[b].solve(v_.data() + dynamics.dof_begin[b]);
+    v_(rows) += dynamics.v_free(rows);
+  });
 }
 
 ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem, const Impulses& r,
@@ -381,18 +393,23 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   run_ranges(team_, contacts, JudgeBlock::size, [&](int begin, int end) {
     shares_[begin / JudgeBlock::size] = judge_contacts(problem, r, begin, end);
   });
-  if (!r.allFinite() || !u_.allFinite()) return infinite_error();
-
+  // Sums over all rows, each by one thread: they are added in the same order whoever works.
   ContactError error = gather(contacts);
+  double free_norm = 0.0, impulse_norm = 0.0, velocity_norm = 0.0;
+  bool are_finite[2] = {};
+  run_parts(team_, 4, [&](int part) {
+    if (part == 0) free_norm = q_.norm(), are_finite[0] = r.allFinite();
+    if (part == 1) impulse_norm = r.norm(), are_finite[1] = u_.allFinite();
+    if (part == 2) velocity_norm = u_.norm(), error.power = r.dot(u_);
+    if (part == 3 && problem.has_dynamics)
+      error.momentum_residual = momentum_residual(problem.dynamics, masses_.roots(), v_, hr_);
+  });
+  if (!are_finite[0] || !are_finite[1]) return infinite_error();
   // Siconos' measure, the scale of velocities, the power.
-  const double free_norm = q_.norm(), scale = std::max({free_norm, r.norm(), u_.norm()});
+  const double scale = std::max({free_norm, impulse_norm, velocity_norm});
   if (scale > rounding) error.fclib /= scale;
   error.velocity_scale = free_norm / std::sqrt(static_cast<double>(q_.size()));
-  error.power = r.dot(u_);
-  if (problem.has_dynamics) {
-    error.power -= r.dot(problem.dynamics.bias);
-    error.momentum_residual = momentum_residual(problem.dynamics, v_, hr_);
-  }
+  if (problem.has_dynamics) error.power -= r.dot(problem.dynamics.bias);
   // Sums of squares that overflow, or a scale that does.
   if (!std::isfinite(error.natural_map_rms + error.approach_rms + error.cone_rms + scale))
     return infinite_error();

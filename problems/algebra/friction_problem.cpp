@@ -55,17 +55,19 @@ inline void contact_row_velocity(const DynamicsForm& dynamics, int c, const doub
   }
 }
 
-/// One contact's part of H^T r.
+/// One contact's part of H^T r for those of its bodies that lie in [begin, end).
 template <int Rows>
-inline void add_contact_impulse(const DynamicsForm& dynamics, int c, const double* r, double* v) {
+inline void add_contact_impulse(const DynamicsForm& dynamics, int c, const double* r, int begin,
+                                int end, double* v) {
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
   for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
     if (body < 0) continue;
     const int dofs = dynamics.body_dofs(body);
     double* vb = v + dynamics.dof_begin[body];
-    if (dofs == 6)
+    const bool is_asked = begin <= body && body < end;
+    if (is_asked && dofs == 6)
       transposed_multiply_add<Rows>(block, 6, r, vb);
-    else
+    else if (is_asked)
       transposed_multiply_add<Rows>(block, dofs, r, vb);
     block += Rows * dofs;
   }
@@ -91,21 +93,16 @@ void FrictionProblem::add_contact(int a, int b, double mu, const Eigen::MatrixXd
   friction.push_back(mu);
 }
 
-void DynamicsForm::clear() {
-  dof_begin.assign(1, 0);
-  mass_begin.assign(1, 0);
-  mass.clear();
+void DynamicsForm::clear_contacts() {
   body_a.clear();
   body_b.clear();
   h_begin.assign(1, 0);
 }
 
-void FrictionProblem::clear() {
+void FrictionProblem::clear_contacts() {
   row_begin.assign(1, 0);
   friction.clear();
-  has_dynamics = false;
-  has_delassus = false;
-  dynamics.clear();
+  dynamics.clear_contacts();
 }
 
 void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
@@ -129,14 +126,21 @@ void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<in
 
 void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                              const Impulses& r, Eigen::VectorXd& p) {
-  p.setZero(dynamics.dof_count());
+  p.resize(dynamics.dof_count());
+  contact_to_body_impulse(dynamics, row_begin, r, 0, dynamics.body_count(), p);
+}
+
+void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                             const Impulses& r, int begin, int end, Eigen::VectorXd& p) {
+  const int first = dynamics.dof_begin[begin];
+  p.segment(first, dynamics.dof_begin[end] - first).setZero();
   const int contacts = static_cast<int>(row_begin.size()) - 1;
   for (int c = 0; c < contacts; ++c) {
     const double* rc = r.data() + row_begin[c];
     if (row_begin[c + 1] - row_begin[c] == 3)
-      add_contact_impulse<3>(dynamics, c, rc, p.data());
+      add_contact_impulse<3>(dynamics, c, rc, begin, end, p.data());
     else
-      add_contact_impulse<1>(dynamics, c, rc, p.data());
+      add_contact_impulse<1>(dynamics, c, rc, begin, end, p.data());
   }
 }
 

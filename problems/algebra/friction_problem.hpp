@@ -66,9 +66,9 @@ struct DynamicsForm {
   /// problem sizes v_free himself.
   int add_body(const Eigen::MatrixXd& block);
 
-  /// No bodies, no contacts. v_free, bias and h keep their sizes: whoever refills the problem
+  /// No contacts; bodies stay. v_free, bias and h keep their sizes: whoever refills the problem
   /// resizes them, and nothing is allocated while the sizes stay.
-  void clear();
+  void clear_contacts();
 };
 
 /// The problem as files often give it: W (rows x rows) and q.
@@ -96,7 +96,7 @@ struct FrictionProblem {
   int row_count() const { return row_begin.back(); }
   int contact_rows(int c) const { return row_begin[c + 1] - row_begin[c]; }
 
-  void clear();  ///< no contacts, neither form; storage is kept (see DynamicsForm::clear)
+  void clear_contacts();  ///< storage is kept (see DynamicsForm::clear_contacts)
 
   /// Appends a contact of b against a to the dynamics form: rows x unknowns of each body, `h_a`
   /// empty where a is -1. The rows are those of h_b. Whoever builds a problem sizes bias himself.
@@ -162,6 +162,9 @@ void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<in
 /// p = H^T r: what the contacts give to each unknown [N s, N m s] (dynamics form only).
 void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                              const Impulses& r, Eigen::VectorXd& p);
+/// The same for bodies begin <= b < end alone; `p` has its size already.
+void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
+                             const Impulses& r, int begin, int end, Eigen::VectorXd& p);
 
 /// Factors every mass block. Throws InvalidProblem for one that is not positive definite.
 void factor_masses(const DynamicsForm& dynamics, std::vector<MassRoot>& roots);

@@ -37,39 +37,49 @@ ProblemAssembler::ProblemAssembler(const MechanicalSystem& system)
       problem_body_.push_back(-1);
       continue;
     }
-    // Bodies without unknowns are no bodies of the problem; the others are numbered through.
-    problem_body_.push_back(static_cast<int>(dof_begin_.size()) - 1);
-    dof_begin_.push_back(dof_begin_.back() + dofs);
     for (int d = 0; d < dofs; ++d) {
       const int turn = d - body.freedom.translations;
       mass_.push_back(turn < 0 ? body.mass : body.inertia[turn]);
     }
+    // Bodies without unknowns are no bodies of the problem; the others are numbered through.
+    // Orthonormal axes and principal frames: the blocks are diagonal.
+    const Eigen::Map<const Eigen::VectorXd> diagonal(mass_.data() + mass_.size() - dofs, dofs);
+    problem_body_.push_back(problem_.dynamics.add_body(diagonal.asDiagonal().toDenseMatrix()));
   }
+  problem_.has_dynamics = true;
+}
+
+template <class Task>
+void ProblemAssembler::for_contacts(const Task& task) const {
+  run_each(team_, problem_.contact_count(), /*together=*/256, task);
+}
+
+template <class Task>
+void ProblemAssembler::for_free_bodies(const Task& task) const {
+  run_each(team_, static_cast<int>(sides_.size()), /*together=*/256, [&](int b) {
+    if (problem_body_[b] >= 0) task(b, *sides_[b].freedom);
+  });
 }
 
 /// The unknowns, body by body: velocities along the free axes, then the spin in the body frame.
 void ProblemAssembler::pack(const MotionState& state, Eigen::VectorXd& v) const {
   v.resize(dof_count());
-  for (size_t b = 0; b < system_.bodies.size(); ++b) {
-    if (problem_body_[b] < 0) continue;
-    const Freedom& freedom = system_.bodies[b].freedom;
-    double* out = v.data() + first_dof(static_cast<int>(b));
+  for_free_bodies([&](int b, const Freedom& freedom) {
+    double* out = v.data() + first_dof(b);
     for (int d = 0; d < freedom.translations; ++d)
       *out++ = freedom.axes.col(d).dot(state.velocity[b]);
     if (freedom.rotation) Eigen::Map<Vec3>{out} = state.spin[b];
-  }
+  });
 }
 
 /// The inverse of pack().
 void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) const {
-  for (size_t b = 0; b < system_.bodies.size(); ++b) {
-    if (problem_body_[b] < 0) continue;
-    const Freedom& freedom = system_.bodies[b].freedom;
-    const double* in = v.data() + first_dof(static_cast<int>(b));
+  for_free_bodies([&](int b, const Freedom& freedom) {
+    const double* in = v.data() + first_dof(b);
     state.velocity[b].setZero();
     for (int d = 0; d < freedom.translations; ++d) state.velocity[b] += freedom.axes.col(d) * *in++;
     if (freedom.rotation) state.spin[b] = Eigen::Map<const Vec3>(in);
-  }
+  });
 }
 
 /// Writes both bodies' parts of a contact's rows of H, unknown after unknown; of body a with a
@@ -109,8 +119,9 @@ PairLaw ProblemAssembler::law_of(const ContactPoint& contact) const {
 }
 
 /// Everything but numbers: who touches whom, with how many rows, and where its blocks stand.
-void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem) {
-  DynamicsForm& dynamics = problem.dynamics;
+void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts) {
+  DynamicsForm& dynamics = problem_.dynamics;
+  problem_.clear_contacts();
   detected_.clear();
   restitution_.clear();
   int row = 0, entry = 0;
@@ -129,43 +140,25 @@ void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts, FrictionP
     dynamics.h_begin.push_back(entry);
     dynamics.body_a.push_back(problem_body_[contact.body_a]);
     dynamics.body_b.push_back(problem_body_[contact.body_b]);
-    problem.row_begin.push_back(row);
-    problem.friction.push_back(mu);
+    problem_.row_begin.push_back(row);
+    problem_.friction.push_back(mu);
   }
   dynamics.h.resize(entry);
   first_tangents_.resize(detected_.size());
-  row_begin_ = problem.row_begin;
 }
 
-void ProblemAssembler::assemble(const StepInput& step, FrictionProblem& problem) {
-  problem.clear();
-  problem.has_dynamics = true;
-  write_masses(problem.dynamics);
-  problem.dynamics.v_free = step.v_free;
-  lay_out(step.contacts, problem);
-  write_rows(step, problem);
-  write_bias(step, problem);
-}
-
-/// Orthonormal axes and principal frames: the blocks are diagonal.
-void ProblemAssembler::write_masses(DynamicsForm& dynamics) const {
-  dynamics.dof_begin = dof_begin_;
-  int entries = 0;
-  for (size_t b = 0; b + 1 < dof_begin_.size(); ++b) {
-    const int dofs = dof_begin_[b + 1] - dof_begin_[b];
-    dynamics.mass_begin.push_back(entries += dofs * dofs);
-  }
-  dynamics.mass.assign(entries, 0.0);
-  for (int b = 0; b < dynamics.body_count(); ++b)
-    for (int d = 0, dofs = dynamics.body_dofs(b); d < dofs; ++d)
-      dynamics.mass[dynamics.mass_begin[b] + d * (dofs + 1)] = mass_[dof_begin_[b] + d];
+FrictionProblem& ProblemAssembler::fill(const StepInput& step) {
+  if (&step.v_free != &problem_.dynamics.v_free) problem_.dynamics.v_free = step.v_free;
+  write_rows(step);
+  write_bias(step);
+  return problem_;
 }
 
 /// The frames and the blocks of H. Each contact writes only what is its own: parts of the work go
 /// to any thread.
-void ProblemAssembler::write_rows(const StepInput& step, FrictionProblem& problem) {
-  DynamicsForm& dynamics = problem.dynamics;
-  run_ranges(team_, problem.contact_count(), /*together=*/128, [&](int begin, int end) {
+void ProblemAssembler::write_rows(const StepInput& step) {
+  DynamicsForm& dynamics = problem_.dynamics;
+  run_ranges(team_, problem_.contact_count(), /*together=*/128, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const ContactPoint& contact = step.contacts[detected_[k]];
       // The points of a pair have one normal.
@@ -173,7 +166,7 @@ void ProblemAssembler::write_rows(const StepInput& step, FrictionProblem& proble
       first_tangents_[k] = is_same ? first_tangents_[k - 1] : first_tangent(contact.normal);
       const Mat3 frame = frame_of(contact.normal, first_tangents_[k]);
       double* block = dynamics.h.data() + dynamics.h_begin[k];
-      if (problem.contact_rows(k) == 3)
+      if (problem_.contact_rows(k) == 3)
         write_contact<3>(contact, frame, step.state.pose, block);
       else
         write_contact<1>(contact, frame, step.state.pose, block);
@@ -182,30 +175,31 @@ void ProblemAssembler::write_rows(const StepInput& step, FrictionProblem& proble
 }
 
 /// What the velocity at the contacts has besides H v: imposed motions; open gaps or restitution.
-void ProblemAssembler::write_bias(const StepInput& step, FrictionProblem& problem) {
-  DynamicsForm& dynamics = problem.dynamics;
+void ProblemAssembler::write_bias(const StepInput& step) {
+  DynamicsForm& dynamics = problem_.dynamics;
   imposed_part(step.contacts, step.end_time, dynamics.bias);
   // Without restitution an open point may close its gap within the step: u_N + gap / h >= 0.
-  for (int c = 0; c < problem.contact_count(); ++c)
+  for_contacts([&](int c) {
     if (restitution_.empty() || restitution_[c] == 0.0)
-      dynamics.bias[problem.row_begin[c]] +=
+      dynamics.bias[problem_.row_begin[c]] +=
           std::max(step.contacts[detected_[c]].gap, 0.0) / step.h;
+  });
   if (restitution_.empty()) return;
   // Newton's law: u_N+ + e u_N- >= 0 for approaching points
-  rebound_.assign(problem.contact_count(), 0.0);
+  rebound_.assign(problem_.contact_count(), 0.0);
   pack(step.state, v_before_);
   imposed_part(step.contacts, step.state.time, u_before_);
   // The normal part of H v before the step: the first row of each block, one entry per unknown.
-  for (int c = 0; c < problem.contact_count(); ++c) {
-    const int rows = problem.contact_rows(c);
+  for (int c = 0; c < problem_.contact_count(); ++c) {
+    const int rows = problem_.contact_rows(c);
     const double* block = dynamics.h.data() + dynamics.h_begin[c];
-    double approach = u_before_[problem.row_begin[c]];
+    double approach = u_before_[problem_.row_begin[c]];
     for (int body : {dynamics.body_a[c], dynamics.body_b[c]})
       for (int d = 0; d < dynamics.body_dofs(body); ++d, block += rows)
         approach += *block * v_before_[dynamics.dof_begin[body] + d];
     if (!(approach < 0.0)) continue;
     rebound_[c] = restitution_[c] * approach;
-    dynamics.bias[problem.row_begin[c]] += rebound_[c];
+    dynamics.bias[problem_.row_begin[c]] += rebound_[c];
   }
 }
 
@@ -217,15 +211,15 @@ Vec3 ProblemAssembler::imposed_velocity(int body, const Vec3& place, double time
 
 void ProblemAssembler::imposed_part(std::span<const ContactPoint> contacts, double time,
                                     Eigen::VectorXd& rows) const {
-  rows.setZero(row_begin_.back());
+  rows.setZero(problem_.row_count());
   if (!some_motion_is_imposed_) return;
   for (size_t k = 0; k < detected_.size(); ++k) {
     const ContactPoint& contact = contacts[detected_[k]];
     const Vec3 velocity = imposed_velocity(contact.body_b, contact.position, time) -
                           imposed_velocity(contact.body_a, contact.position, time);
-    const int n = row_begin_[k + 1] - row_begin_[k];
+    const int n = problem_.contact_rows(static_cast<int>(k));
     const Mat3 frame = frame_of(contact.normal, first_tangents_[k]);
-    rows.segment(row_begin_[k], n) = (frame * velocity).head(n);
+    rows.segment(problem_.row_begin[k], n) = (frame * velocity).head(n);
   }
 }
 
@@ -238,25 +232,26 @@ double ProblemAssembler::imposed_power(std::span<const ContactPoint> contacts, d
 
 void ProblemAssembler::to_rows(std::span<const Vec3> world, std::span<const ContactPoint> contacts,
                                Impulses& r) const {
-  r.resize(row_begin_.back());
-  for (size_t k = 0; k < detected_.size(); ++k) {
-    const int n = row_begin_[k + 1] - row_begin_[k];
+  r.resize(problem_.row_count());
+  for_contacts([&](int k) {
+    const int n = problem_.contact_rows(k);
     const Mat3 frame = frame_of(contacts[detected_[k]].normal, first_tangents_[k]);
-    r.segment(row_begin_[k], n) = (frame * world[detected_[k]]).head(n);
-  }
+    r.segment(problem_.row_begin[k], n) = (frame * world[detected_[k]]).head(n);
+  });
 }
 
 void ProblemAssembler::to_world(const Impulses& r, std::span<const ContactPoint> contacts,
                                 std::vector<Vec3>& world) const {
   world.assign(contacts.size(), Vec3::Zero());
-  for (size_t k = 0; k < detected_.size(); ++k) {
+  for_contacts([&](int k) {
     Vec3& given = world[detected_[k]];
     const Vec3& normal = contacts[detected_[k]].normal;
-    if (row_begin_[k + 1] - row_begin_[k] == 3)
-      given = frame_of(normal, first_tangents_[k]).transpose() * r.segment<3>(row_begin_[k]);
+    if (problem_.contact_rows(k) == 3)
+      given =
+          frame_of(normal, first_tangents_[k]).transpose() * r.segment<3>(problem_.row_begin[k]);
     else
-      given = normal * r[row_begin_[k]];
-  }
+      given = normal * r[problem_.row_begin[k]];
+  });
 }
 
 }  // namespace ballast

@@ -25,22 +25,22 @@ struct StepInput {
   double end_time;                ///< when imposed motions are taken [s]
 };
 
-/// Turns contacts into a FrictionProblem, step after step, into the same buffers.
+/// Turns contacts into a FrictionProblem, step after step, into the same buffers. The masses stay.
 class ProblemAssembler {
  public:
   explicit ProblemAssembler(const MechanicalSystem& system);
 
-  /// Shares the work of assemble() from now on; null: alone. The same bits either way. `team`
-  /// outlives the assembler.
+  /// Shares the work from now on; null: alone. The same bits either way. `team` outlives the
+  /// assembler.
   void use_team(WorkerTeam* team) { team_ = team; }
 
   /// Unknowns <-> velocities. Bodies without freedom are left alone.
-  int dof_count() const { return dof_begin_.back(); }
+  int dof_count() const { return problem_.dynamics.dof_count(); }
   void pack(const MotionState& state, Eigen::VectorXd& v) const;
   void unpack(const Eigen::VectorXd& v, MotionState& state) const;
   /// First unknown of a body, or -1 without freedom.
   int first_dof(int body) const {
-    return problem_body_[body] < 0 ? -1 : dof_begin_[problem_body_[body]];
+    return problem_body_[body] < 0 ? -1 : problem_.dynamics.dof_begin[problem_body_[body]];
   }
 
   /// Mass or moment of inertia of each unknown [kg, kg m^2]: the mass matrix is diagonal.
@@ -49,7 +49,13 @@ class ProblemAssembler {
   /// Where the contact's restitution e > 0 points still open are left out: Newton's law speaks of
   /// contacts that are closed; otherwise an open point acts only if it would close within the step,
   /// bias_N = gap / h.
-  void assemble(const StepInput& step, FrictionProblem& problem);
+  FrictionProblem& assemble(const StepInput& step) { return lay_out(step.contacts), fill(step); }
+  /// Its two halves. lay_out() needs no team: it can go on beside other work.
+  void lay_out(std::span<const ContactPoint> contacts);
+  FrictionProblem& fill(const StepInput& step);
+  /// The problem assembled last; at first one without contacts.
+  FrictionProblem& problem() { return problem_; }
+  const FrictionProblem& problem() const { return problem_; }
 
   /// Which detected contact each one assembled last is; left-out points are none.
   std::span<const int> detected() const { return detected_; }
@@ -74,13 +80,17 @@ class ProblemAssembler {
   Vec3 imposed_velocity(int body, const Vec3& place, double time) const;
   void imposed_part(std::span<const ContactPoint> contacts, double time,
                     Eigen::VectorXd& rows) const;
-  void lay_out(std::span<const ContactPoint> contacts, FrictionProblem& problem);
-  void write_masses(DynamicsForm& dynamics) const;
-  void write_rows(const StepInput& step, FrictionProblem& problem);
+  /// task(c) for the contacts assembled last, task(b, freedom) for bodies that have one: each works
+  /// on what is its own, on any thread.
+  template <class Task>
+  void for_contacts(const Task& task) const;
+  template <class Task>
+  void for_free_bodies(const Task& task) const;
+  void write_rows(const StepInput& step);
   template <int Rows>
   void write_contact(const ContactPoint& contact, const Mat3& frame, std::span<const Pose> poses,
                      double* h) const;
-  void write_bias(const StepInput& step, FrictionProblem& problem);
+  void write_bias(const StepInput& step);
 
   const MechanicalSystem& system_;
   WorkerTeam* team_ = nullptr;
@@ -93,13 +103,12 @@ class ProblemAssembler {
   PairLaw law_of(const ContactPoint& contact) const;
   std::vector<Side> sides_;
   std::vector<int> problem_body_;  // body -> index among bodies with freedom, or -1
-  std::vector<int> dof_begin_{0};
   std::vector<double> mass_;
   bool some_motion_is_imposed_ = false;
   double highest_restitution_;
   std::vector<Vec3> first_tangents_;  // T1 of the contacts assembled last
   std::vector<int> detected_;
-  std::vector<int> row_begin_{0};
+  FrictionProblem problem_;
   Eigen::VectorXd v_before_, u_before_;
   std::vector<double> restitution_, rebound_;
 };

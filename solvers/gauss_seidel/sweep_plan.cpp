@@ -22,15 +22,27 @@ void sort_by_key(const std::vector<int>& keys, int count, std::vector<int>& begi
 }  // namespace
 
 void SweepPlan::prepare(const FrictionProblem& problem) {
-  slab_.assign(problem.dynamics.body_count(), 0);
+  constexpr int together = 1024;
+  const int contacts = problem.contact_count();
+  opening_.resize(contacts);
+  // One part finds the slabs, which is a walk from body to body; the others the openings.
+  run_parts(team_, 1 + (contacts + together - 1) / together, [&](int part) {
+    if (part == 0) return find_slabs(problem.dynamics);
+    const int begin = (part - 1) * together;
+    find_openings(problem, begin, std::min(begin + together, contacts));
+  });
+  order(problem);
+}
+
+void SweepPlan::find_slabs(const DynamicsForm& dynamics) {
+  slab_.assign(dynamics.body_count(), 0);
   slabs_ = 1;
-  const int wanted = problem.dynamics.body_count() / slab_bodies;
+  const int wanted = dynamics.body_count() / slab_bodies;
   if (wanted > 1) {
-    find_levels(problem.dynamics);
-    cut_slabs(problem.dynamics, wanted);
+    find_levels(dynamics);
+    cut_slabs(dynamics, wanted);
   }
   sort_by_key(slab_, slabs_, body_begin_, bodies_);
-  order(problem);
 }
 
 /// Levels from a body at the rim: the last one that a first search reached.
@@ -112,25 +124,21 @@ void SweepPlan::cut_slabs(const DynamicsForm& dynamics, int wanted) {
 
 /// How fast each contact opens without impulses, or how fast its gap would have to be closed: the
 /// smaller; zero where it closes or has no gap.
-void SweepPlan::find_openings(const FrictionProblem& problem) {
+void SweepPlan::find_openings(const FrictionProblem& problem, int begin, int end) {
   const DynamicsForm& dynamics = problem.dynamics;
-  const int contacts = problem.contact_count();
-  opening_.assign(contacts, 0.0);
-  run_ranges(team_, contacts, /*together=*/1024, [&](int begin, int end) {
-    for (int c = begin; c < end; ++c) {
-      const double gap = dynamics.bias[problem.row_begin[c]];
-      if (!(gap > 0.0)) continue;
-      const int rows = problem.contact_rows(c);
-      const double* entry = dynamics.h.data() + dynamics.h_begin[c];
-      double free = gap;
-      for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
-        const double* v = dynamics.v_free.data() + (body < 0 ? 0 : dynamics.dof_begin[body]);
-        for (int j = 0; j < dynamics.body_dofs(body); ++j, entry += rows) free += *entry * v[j];
-      }
-      opening_[c] = std::clamp(free, 0.0, gap);
+  for (int c = begin; c < end; ++c) {
+    const double gap = dynamics.bias[problem.row_begin[c]];
+    opening_[c] = 0.0;
+    if (!(gap > 0.0)) continue;
+    const int rows = problem.contact_rows(c);
+    const double* entry = dynamics.h.data() + dynamics.h_begin[c];
+    double free = gap;
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+      const double* v = dynamics.v_free.data() + (body < 0 ? 0 : dynamics.dof_begin[body]);
+      for (int j = 0; j < dynamics.body_dofs(body); ++j, entry += rows) free += *entry * v[j];
     }
-  });
-  widest_ = contacts > 0 ? *std::ranges::max_element(opening_) : 0.0;
+    opening_[c] = std::clamp(free, 0.0, gap);
+  }
 }
 
 /// 0: it closes; else the octave of its opening, the higher the wider.
@@ -148,7 +156,7 @@ void SweepPlan::order(const FrictionProblem& problem) {
   // A key for every contact: contacts of a key keep their order.
   rank_.assign(dynamics.body_count() + 1, 0);
   key_.resize(contacts);
-  find_openings(problem);
+  widest_ = contacts > 0 ? *std::ranges::max_element(opening_) : 0.0;
   for (int c = 0; c < contacts; ++c) {
     const int a = dynamics.body_a[c], b = dynamics.body_b[c];
     const int first = a >= 0 ? a : b, second = b >= 0 ? b : a;

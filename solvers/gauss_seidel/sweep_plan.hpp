@@ -51,10 +51,11 @@ class SweepPlan {
   static constexpr int gap_octaves = 10;
 
  private:
+  void find_slabs(const DynamicsForm& dynamics);
   void find_levels(const DynamicsForm& dynamics);
   int breadth_first(int root, int level);
   void cut_slabs(const DynamicsForm& dynamics, int wanted);
-  void find_openings(const FrictionProblem& problem);
+  void find_openings(const FrictionProblem& problem, int begin, int end);
   int level_of(double opening) const;
   void order(const FrictionProblem& problem);
   WorkerTeam* team_ = nullptr;

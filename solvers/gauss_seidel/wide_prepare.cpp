@@ -1,6 +1,7 @@
 // What WideSweep makes of a problem before its first sweep: groups, their records, free velocities.
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include "problems/algebra/delassus.hpp"
@@ -44,8 +45,7 @@ bool WideSweep::prepare(const FrictionProblem& problem) {
   if (!sort_bodies(problem.dynamics) || !may_fill_lanes(problem.dynamics)) return false;
   place_bodies(problem.dynamics);
   if (!group_contacts(problem.dynamics)) return false;
-  factor_masses(problem.dynamics, roots_);
-  if (!make_records(problem)) return false;
+  if (!factor_bodies(problem.dynamics) || !make_records(problem)) return false;
   free_bodies(problem.dynamics);
   single_made_ = false;
   return true;
@@ -282,18 +282,28 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
   return opposite;
 }
 
+/// False: a mass that is not positive definite.
+bool WideSweep::factor_bodies(const DynamicsForm& dynamics) {
+  roots_.resize(dynamics.body_count());
+  std::atomic<bool> are_factored = true;
+  run_each(team_, dynamics.body_count(), /*together=*/256, [&](int b) {
+    const double* mass = dynamics.mass.data() + dynamics.mass_begin[b];
+    if (!roots_[b].factor(mass, dynamics.body_dofs(b))) are_factored = false;
+  });
+  return are_factored;
+}
+
 void WideSweep::free_bodies(const DynamicsForm& dynamics) {
-  const int bodies = dynamics.body_count();
   free_.assign(rows_, {});
   exact_.bodies.assign(rows_, {});
-  for (int b = 0; b < bodies; ++b) {
+  run_each(team_, dynamics.body_count(), /*together=*/256, [&](int b) {
     // Grains keep their velocity v [m/s] in a group's coordinates; L^T is taken of the spin alone.
     double* w = free_[row_of_body_[b]].w;
     const double* v = dynamics.v_free.data() + dynamics.dof_begin[b];
     std::copy_n(v, dynamics.body_dofs(b), w);
     roots_[b].multiply_upper(dynamics.mass.data() + dynamics.mass_begin[b], w);
     if (!is_wall_[b]) std::copy_n(v, 3, w);
-  }
+  });
 }
 
 }  // namespace ballast

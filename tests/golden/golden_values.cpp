@@ -290,7 +290,7 @@ std::vector<Table> heap_values() {
   const FrictionProblem& problem = stepper.problem();
   Impulses warm = stepper.impulses();
   warm *= 0.5;  // neither cold nor solved
-  std::vector<Table> tables = {contact_values(stepper.contacts()),
+  std::vector<Table> tables = {contact_values(memory.contacts),
                                problem_values(problem, stepper.impulses(), state)};
   for (const Kind& kind : backend_kinds)
     if (Table table = backend_values(problem, warm, kind); !table.rows.empty())

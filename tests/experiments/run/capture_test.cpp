@@ -46,7 +46,7 @@ TEST_CASE("A captured step comes back as the solver saw it") {
   StepRecord record;
   for (int k = 0; k < 21; ++k) {
     record = stepper.step(state, memory);
-    capture.observe(stepper, state, record);
+    capture.observe(stepper, state, memory, record);
   }
   const fs::path file = folder.path() / "step_0000021.hdf5";
   const CapturedProblem back = read_captured(file);
@@ -62,9 +62,9 @@ TEST_CASE("A captured step comes back as the solver saw it") {
   CHECK(back.step == 21);
   CHECK(back.velocity_scale() == velocity_scale(scene));
   CHECK(back.phase == "none");
-  REQUIRE(back.key.size() == stepper.contacts().size());
+  REQUIRE(back.key.size() == memory.contacts.size());
   for (size_t c = 0; c < back.key.size(); ++c) {
-    const ContactPoint& contact = stepper.contacts()[c];
+    const ContactPoint& contact = memory.contacts[c];
     CHECK((back.key[c] == contact.feature && back.gap[c] == contact.gap));
     CHECK((back.id_a[c] == contact.body_a && back.id_b[c] == contact.body_b));
     CHECK(Vec3(back.frame.data() + 9 * c) == contact.normal);

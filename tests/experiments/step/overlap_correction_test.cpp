@@ -28,13 +28,12 @@ struct TwoCubes {
   /// Of one step, with the velocities of the state. Returns the potential energy given [J].
   double correct(const CorrectionSpec& spec) {
     ProblemAssembler assembler(system);
-    FrictionProblem problem;
     Eigen::VectorXd v;
     assembler.pack(state, v);
-    assembler.assemble({state, contacts, v, h, h}, problem);
+    assembler.assemble({state, contacts, v, h, h});
     OverlapCorrection correction(system, spec);
-    correction.find_targets(/*team=*/nullptr, assembler, problem, contacts, v, h);
-    return correction.apply(assembler, problem, state);
+    correction.find_targets(/*team=*/nullptr, assembler, contacts, v, h);
+    return correction.apply(assembler, state);
   }
   double rise(size_t cube) const {
     return state.pose[cube].position.z() - (cube == 0 ? 0.05 : 0.15 - overlap);

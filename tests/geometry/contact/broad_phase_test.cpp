@@ -127,9 +127,16 @@ TEST_CASE("a wide world, which is cut into strips, lists every pair once") {
     World world(700, 9);
     for (Pose& pose : world.poses) pose.position.array() *= stretch.array();
     for (const int large : {100, 200, 300}) world.reach[large] = 0.3;
-    BroadPhase broad_phase(world.bodies, 1e-9);
-    broad_phase.update(world.poses, world.rotations(), world.reach);
+    BroadPhase broad_phase(world.bodies, 1e-9), shared(world.bodies, 1e-9);
+    WorkerTeam team;
+    team.resize(3);
+    shared.use_team(&team);
+    for (BroadPhase* list : {&broad_phase, &shared})
+      list->update(world.poses, world.rotations(), world.reach);
     check_list(broad_phase, world);
+    CHECK(std::ranges::equal(shared.pairs(), broad_phase.pairs(), [](const auto& p, const auto& q) {
+      return p.a == q.a && p.b == q.b;
+    }));
   }
 }
 

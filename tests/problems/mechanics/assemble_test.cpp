@@ -58,9 +58,7 @@ struct Fixture {
   FrictionProblem assembled(ProblemAssembler& assembler) const {
     Eigen::VectorXd v;
     assembler.pack(state, v);
-    FrictionProblem problem;
-    assembler.assemble({state, contacts, v, 1e-3, 0.0}, problem);
-    return problem;
+    return assembler.assemble({state, contacts, v, 1e-3, 0.0});
   }
 
   Vec3 material_velocity(int b, const Vec3& point) const {
@@ -170,12 +168,11 @@ TEST_CASE("a team assembles with the bits of one thread") {
   shared.use_team(&team);
   Eigen::VectorXd v;
   alone.pack(f.state, v);
-  FrictionProblem expected, problem;
   for (const size_t count :
        {f.contacts.size(), few.size(), f.contacts.size()}) {  // into the same buffers
     const std::span<const ContactPoint> contacts(f.contacts.data(), count);
-    alone.assemble({f.state, contacts, v, 1e-3, 1e-3}, expected);
-    shared.assemble({f.state, contacts, v, 1e-3, 1e-3}, problem);
+    const FrictionProblem& expected = alone.assemble({f.state, contacts, v, 1e-3, 1e-3});
+    const FrictionProblem& problem = shared.assemble({f.state, contacts, v, 1e-3, 1e-3});
     problem.validate();
     CHECK(problem.dynamics.h == expected.dynamics.h);
     CHECK(problem.dynamics.h_begin == expected.dynamics.h_begin);

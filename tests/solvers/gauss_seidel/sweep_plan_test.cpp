@@ -160,7 +160,7 @@ TEST_CASE("no contacts, and contacts that nothing moves, have a plan") {
   SweepPlan plan;
   plan.prepare(problem);
   CHECK(plan.contacts().size() == 2);
-  problem.clear();
+  problem.clear_contacts();
   plan.prepare(problem);
   CHECK(plan.contacts().empty());
 }

@@ -167,9 +167,7 @@ TEST_CASE("impulses there and back: what moves stays, what does not becomes zero
   expected.segment(problem.row_begin[4], 3).setZero();
   CHECK(back == expected);
   // A problem without contacts after it.
-  problem.clear();
-  problem.has_dynamics = true;
-  problem.dynamics.v_free.resize(0);
+  problem.clear_contacts();
   problem.dynamics.bias.resize(0);
   moving.take(problem);
   CHECK(moving.contact_count() == 0);
