@@ -281,21 +281,18 @@ double largest_eigenvalue(const Eigen::Matrix3d& w) {
 }
 
 void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
-                                             const std::vector<int>& row_begin, const Impulses& r) {
+                                             const std::vector<int>& row_begin, const Impulses& r,
+                                             bool masses_are_known) {
   // Each thread adds up what a share of the bodies gets, in the order of the contacts.
   const int bodies = dynamics.body_count(), shares = size_of(team_);
   const auto share = [=](int k) {
     return static_cast<int>(static_cast<long>(bodies) * k / shares);
   };
   hr_.resize(dynamics.dof_count());
-  bool are_known = false;
-  run_parts(team_, shares + 1, [&](int k) {
-    if (k == shares)
-      are_known = masses_.are_of(dynamics);
-    else
-      contact_to_body_impulse(dynamics, row_begin, r, share(k), share(k + 1), hr_);
+  run_parts(team_, shares, [&](int k) {
+    contact_to_body_impulse(dynamics, row_begin, r, share(k), share(k + 1), hr_);
   });
-  if (!are_known) masses_.keep(dynamics);
+  if (!masses_are_known && !masses_.are_of(dynamics)) masses_.keep(dynamics);
   // v = v_free + M^-1 H^T r
   v_.resize(hr_.size());
   run_each(team_, bodies, /*together=*/256, [&](int b) {
@@ -373,10 +370,12 @@ ContactError ContactJudge::gather(int contacts) const {
   return all;
 }
 
-ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses& r) {
+ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses& r,
+                                 bool masses_are_known) {
   require_rows(r, problem.row_count());
   const int contacts = problem.contact_count();
-  if (problem.has_dynamics) recompute_body_velocities(problem.dynamics, problem.row_begin, r);
+  if (problem.has_dynamics)
+    recompute_body_velocities(problem.dynamics, problem.row_begin, r, masses_are_known);
   // Workspaces, and for a stored W the whole of u and q.
   if (contacts == 0) return {};
   if (problem.has_dynamics) {
@@ -424,7 +423,7 @@ double ContactJudge::fclib(const FrictionProblem& problem, const Impulses& r, do
     free_norm = u_.norm();
   }
   if (problem.has_dynamics && !is_free) {
-    recompute_body_velocities(problem.dynamics, problem.row_begin, r);
+    recompute_body_velocities(problem.dynamics, problem.row_begin, r, /*masses_are_known=*/false);
     body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, u_);
   } else if (!is_free) {
     contact_velocity(problem, r, u_);

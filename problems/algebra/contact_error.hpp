@@ -60,7 +60,9 @@ struct ContactError {
 /// Judges with its own workspace, so that a run can call it every step without allocating.
 class ContactJudge {
  public:
-  ContactError judge(const FrictionProblem& problem, const Impulses& r);
+  /// `masses_are_known`: the problem has been validated with masses(), and is as it was then.
+  ContactError judge(const FrictionProblem& problem, const Impulses& r,
+                     bool masses_are_known = false);
 
   /// ContactError::fclib alone: what a solver's look needs. `free_norm`: |q|, for the problem at
   /// hand found where it is negative, and kept. The same as judge()'s but for rounding.
@@ -93,7 +95,7 @@ class ContactJudge {
   };
 
   void recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
-                                 const Impulses& r);
+                                 const Impulses& r, bool masses_are_known);
   Share judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin, int end);
   ContactError gather(int contacts) const;
 

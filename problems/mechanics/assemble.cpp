@@ -96,7 +96,7 @@ void ProblemAssembler::write_contact(const ContactPoint& contact, const Mat3& fr
       for (int row = 0; row < Rows; ++row) *h++ = sign * frame.row(row).dot(freedom.axes.col(d));
     if (!freedom.rotation) continue;
     // d . R (w_B x s) = w_B . (s x R^T d): lever and direction in the body frame
-    const Mat3 rotation = poses[body].rotation.toRotationMatrix();
+    const Mat3& rotation = rotations_[body];
     const Vec3 arm = system_.period.nearest(contact.position - poses[body].position);
     const Vec3 lever = sign * (rotation.transpose() * arm);
     const Mat3 directions = rotation.transpose() * frame.transpose();
@@ -158,6 +158,10 @@ FrictionProblem& ProblemAssembler::fill(const StepInput& step) {
 /// to any thread.
 void ProblemAssembler::write_rows(const StepInput& step) {
   DynamicsForm& dynamics = problem_.dynamics;
+  rotations_.resize(step.state.pose.size());
+  for_free_bodies([&](int b, const Freedom& freedom) {
+    if (freedom.rotation) rotations_[b] = step.state.pose[b].rotation.toRotationMatrix();
+  });
   run_ranges(team_, problem_.contact_count(), /*together=*/128, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const ContactPoint& contact = step.contacts[detected_[k]];

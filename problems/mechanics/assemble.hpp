@@ -106,6 +106,7 @@ class ProblemAssembler {
   std::vector<double> mass_;
   bool some_motion_is_imposed_ = false;
   double highest_restitution_;
+  std::vector<Mat3> rotations_;       // R_WB of the bodies that turn
   std::vector<Vec3> first_tangents_;  // T1 of the contacts assembled last
   std::vector<int> detected_;
   FrictionProblem problem_;

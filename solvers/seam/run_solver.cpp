@@ -111,7 +111,7 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
     run.solved.impulses.setZero(problem.row_count());
     run.solved.reason = StopReason::numerical_failure;
   }
-  run.error = judge_.judge(problem, run.solved.impulses);
+  run.error = judge_.judge(problem, run.solved.impulses, /*masses_are_known=*/true);
   run.verdict =
       verdict_of(run.solved.reason, run.error,
                  asked.fclib ? asked.fclib->tolerance() : asked.tolerance, asked.fclib != nullptr);
