@@ -43,7 +43,6 @@ void BroadPhase::update(std::span<const Pose> poses, std::span<const Mat3> rotat
   if (still_valid(poses, reach)) return;
   list_boxes(poses, rotations, reach);
   find_overlaps();
-  sort_found();
   list_pairs();
   ++rebuilds_;
 }
@@ -146,26 +145,13 @@ void BroadPhase::compare_boxes(Strip& strip, const int (&axis)[3], const IsHere&
     }
 }
 
-/// What the strips have found by (a, b), and where each a begins: dealt out by a, then the few of
-/// each a sorted.
-void BroadPhase::sort_found() {
-  std::fill(first_.begin(), first_.end(), 0);
-  for (const Strip& strip : strips_)
-    for (const auto& [a, b] : strip.found) ++first_[a + 1];
-  for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
-  found_.resize(first_.back());
-  for (const Strip& strip : strips_)
-    for (const Found& pair : strip.found) found_[first_[pair.first]++] = pair;
-  // Each first has been moved to where the next begins.
-  std::shift_right(first_.begin(), first_.end(), 1);
-  first_[0] = 0;
-  run_each(team_, static_cast<int>(bodies_.size()), /*together=*/256,
-           [&](int a) { std::sort(found_.begin() + first_[a], found_.begin() + first_[a + 1]); });
-}
-
 /// What has been found becomes the list. Both are sorted by (a, b): pairs that stay move to their
 /// new places, with what is known of them.
 void BroadPhase::list_pairs() {
+  found_.clear();
+  for (const Strip& strip : strips_)
+    found_.insert(found_.end(), strip.found.begin(), strip.found.end());
+  std::sort(found_.begin(), found_.end());
   auto next = found_.begin();
   std::erase_if(pairs_, [&](const CandidatePair& pair) {
     next = std::find_if(next, found_.end(), [key = std::pair(pair.a, pair.b)](const auto& found) {
@@ -173,6 +159,7 @@ void BroadPhase::list_pairs() {
     });
     return next == found_.end() || *next != std::pair(pair.a, pair.b);
   });
+  std::fill(first_.begin(), first_.end(), 0);
   // From the end on, so that no pair is written over before it has moved.
   size_t stays = pairs_.size();
   pairs_.resize(found_.size());
@@ -180,7 +167,9 @@ void BroadPhase::list_pairs() {
     const auto [a, b] = found_[k];
     const bool is_old = stays > 0 && pairs_[stays - 1].a == a && pairs_[stays - 1].b == b;
     pairs_[k] = is_old ? pairs_[--stays] : CandidatePair{.a = a, .b = b};
+    ++first_[a + 1];
   }
+  for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
 }
 
 }  // namespace ballast

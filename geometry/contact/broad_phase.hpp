@@ -85,7 +85,6 @@ class BroadPhase {
   };
   template <class IsHere>
   void compare_boxes(Strip& strip, const int (&axis)[3], const IsHere& is_here) const;
-  void sort_found();
   void list_pairs();
 
   std::vector<Body> bodies_;

@@ -167,8 +167,8 @@ double momentum_residual(const DynamicsForm& dynamics, const std::vector<MassRoo
     const double* block = dynamics.mass.data() + dynamics.mass_begin[b];
     for (int i = 0; i < dofs; ++i) {
       double sum = -p[first + i];
-      const bool own = roots[b].diagonal;  // the one entry that is not zero
-      for (int k = own ? i : 0; k < (own ? i + 1 : dofs); ++k)
+      const bool diagonal = roots[b].diagonal;  // then one entry of the row is not zero
+      for (int k = diagonal ? i : 0; k < (diagonal ? i + 1 : dofs); ++k)
         sum += block[k * dofs + i] * (v[first + k] - dynamics.v_free[first + k]);
       worst = std::max(worst, std::abs(sum));
     }

@@ -1,7 +1,6 @@
 // What WideSweep makes of a problem before its first sweep: groups, their records, free velocities.
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 
 #include "problems/algebra/delassus.hpp"
@@ -45,7 +44,8 @@ bool WideSweep::prepare(const FrictionProblem& problem) {
   if (!sort_bodies(problem.dynamics) || !may_fill_lanes(problem.dynamics)) return false;
   place_bodies(problem.dynamics);
   if (!group_contacts(problem.dynamics)) return false;
-  if (!factor_bodies(problem.dynamics) || !make_records(problem)) return false;
+  factor_masses(problem.dynamics, roots_);
+  if (!make_records(problem)) return false;
   free_bodies(problem.dynamics);
   single_made_ = false;
   return true;
@@ -280,17 +280,6 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
   for (int i = 0; i < rows; ++i) k.bias[i][lane] = dynamics.bias[problem.row_begin[c] + i];
   f.mu[lane] = problem.friction[c];
   return opposite;
-}
-
-/// False: a mass that is not positive definite.
-bool WideSweep::factor_bodies(const DynamicsForm& dynamics) {
-  roots_.resize(dynamics.body_count());
-  std::atomic<bool> are_factored = true;
-  run_each(team_, dynamics.body_count(), /*together=*/256, [&](int b) {
-    const double* mass = dynamics.mass.data() + dynamics.mass_begin[b];
-    if (!roots_[b].factor(mass, dynamics.body_dofs(b))) are_factored = false;
-  });
-  return are_factored;
 }
 
 void WideSweep::free_bodies(const DynamicsForm& dynamics) {

@@ -118,7 +118,6 @@ class WideSweep final : public ContactSweep {
                   GroupFrame& frame, const ExactLoops<Group>& loops) const;
   template <typename Group>
   bool fill_lane(const FrictionProblem& problem, Group& group, GroupFrame& frame, int lane) const;
-  bool factor_bodies(const DynamicsForm& dynamics);
   void free_bodies(const DynamicsForm& dynamics);
   /// Calls task(part) for the interiors, then for the interfaces; those of a kind at the same time.
   template <typename Number, typename Task>
