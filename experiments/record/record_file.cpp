@@ -6,6 +6,7 @@
 
 #include "geometry/shape/convex_hull.hpp"
 #include "platform/error.hpp"
+#include "platform/text.hpp"
 
 namespace ballast {
 
@@ -119,6 +120,14 @@ void add_system(Hdf5Writer& file, const MechanicalSystem& system) {
   file.add_group("parts");
   tables.each_of_parts(add);
 }
+
+/// `value` as a whole number from 0 to `most`. Throws Error, naming the dataset.
+long whole(const Hdf5Reader& file, const char* dataset, double value, double most) {
+  if (!(value >= 0.0 && value <= most))
+    file.fail(std::string(dataset) + printed(" has %g, beyond 0 to %g", value, most));
+  return static_cast<long>(value);
+}
+constexpr double most_steps = 0x1p53;
 
 /// Throws Error unless the group has so many rows of the layout.
 void require_rows(const Hdf5Reader& file, const RowLayout& layout, size_t rows) {
@@ -284,6 +293,7 @@ std::vector<MotionState> read_record_poses(const std::filesystem::path& path) {
       const std::vector<double> values = file.read_rows("poses/" + part.name, k);
       row.insert(row.end(), values.begin(), values.end());
     }
+    whole(file, "poses/step", row[0], most_steps);
     frames.push_back(unpack_pose_row(row));
   }
   return frames;
@@ -311,10 +321,15 @@ std::vector<FrameContact> RecordForces::of_frame(size_t frame) const {
   const auto vector = [](const std::vector<double>& values, size_t c) {
     return Eigen::Vector3f(Vec3(values.data() + 3 * c).cast<float>());
   };
+  const Hdf5Shape bodies = file_.shape("bodies/mass");
+  const double last_body = bodies.empty() ? -1.0 : static_cast<double>(bodies[0]) - 1.0;
+  const auto body = [&](const char* dataset, double value) {
+    return static_cast<int>(whole(file_, dataset, value, last_body));
+  };
   std::vector<FrameContact> contacts;
   for (size_t c = 0; c < count; ++c)
     if (const Eigen::Vector3f on_b = vector(force, c); !on_b.isZero())
-      contacts.push_back({static_cast<int>(body_a[c]), static_cast<int>(body_b[c]),
+      contacts.push_back({body("contacts/body_a", body_a[c]), body("contacts/body_b", body_b[c]),
                           vector(position, c), vector(normal, c), on_b});
   return contacts;
 }

@@ -1,6 +1,7 @@
 #include "experiments/record/record_file.hpp"
 
 #include <functional>
+#include <limits>
 
 #include "platform/hdf5_file.hpp"
 #include "platform/program.hpp"
@@ -158,6 +159,33 @@ TEST_CASE("a record whose datasets do not fit together is refused") {
   CHECK_THAT(run_error([&] { read_record_system(file); }), Contains("/bodies do not fit together"));
   CHECK_THAT(run_error([&] { read_record_system(folder.path() / "none.h5"); }),
              Contains("no such file"));
+}
+
+TEST_CASE("a number of steps that no run has is refused") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "record.h5";
+  for (const auto step : {std::numeric_limits<std::int64_t>::max(), std::int64_t{-1}}) {
+    Hdf5Writer writer(file, Hdf5Storage::plain);
+    writer.add_group("poses");
+    writer.add("poses/step", std::vector<std::int64_t>{step});
+    writer.add("poses/time", std::vector<double>{0.0});
+    for (const char* name : {"position", "velocity", "spin"})
+      writer.add(std::string("poses/") + name, std::vector<double>(3), {1, 1, 3});
+    writer.add("poses/rotation", std::vector<double>{1, 0, 0, 0}, {1, 1, 4});
+    writer.commit();
+    CHECK_THAT(run_error([&] { read_record_poses(file); }), Contains("poses/step has"));
+  }
+}
+
+TEST_CASE("a contact of a body that is not there is refused") {
+  OpenRecord open(5, true);
+  StepMemory memory = sample_memory(1);
+  memory.contacts[0].body_b = 1000;
+  open.recorder.add_frame(sample_state(open.system, 10), memory, sample_step);
+  open.recorder.finish("", "");
+  const RecordForces forces(open.path() / "record.h5");
+  CHECK(forces.of_frame(1).size() == 1);
+  CHECK_THAT(run_error([&] { forces.of_frame(2); }), Contains("contacts/body_b has 1000"));
 }
 
 TEST_CASE("quantities of rows become datasets, more rows than are gathered at once") {
