@@ -207,6 +207,11 @@ class Camera {
     const int width = finer * options.width, height = finer * options.height;
     lens_ = {axes_towards(back), box_.center() + 3.4 * radius() * back,
              0.5 * height / std::tan(0.5 * lens_angle) * narrow, width, height};
+    for (int k = 0; k < 8; ++k) {  // the whole box is in the picture
+      const Vec3 corner = lens_ * box_.corner(static_cast<Box::CornerType>(k));
+      const double x = 2.0 * corner.x() / width - 1.0, y = 2.0 * corner.y() / height - 1.0;
+      lens_.scale /= std::max(1.0, std::max(std::abs(x), std::abs(y)) / 0.97);
+    }
     sunlight_ = {axes_towards(sun), box_.center(), 0.49 * shadow_size / radius(),
                  shadow_size,       shadow_size,   true};
     for (size_t f = 0; f < view.frames.size(); ++f)

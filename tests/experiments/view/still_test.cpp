@@ -97,6 +97,27 @@ TEST_CASE("a cube seen along an axis is a square in the middle, as large as the 
   CHECK(std::abs(static_cast<double>(high) - size) <= 1.5);
 }
 
+TEST_CASE("all of a tall heap is in the picture") {
+  Scene scene;
+  BodySpec body;
+  body.shape = std::make_shared<const Polyhedron>(make_box(Vec3::Constant(0.1)));
+  body.mass = 1.0;
+  body.inertia = Vec3::Ones();
+  scene.bodies = {body, body, body};
+  MotionState state;
+  MechanicalSystem system = make_system(scene, state);
+  for (int k = 0; k < 3; ++k) state.pose[k].position = {0.0, 0.0, 0.8 * k};
+  const Pixels picture = picture_of(view_of(std::move(system), {state}), small_still("home"));
+  size_t at_rim = 0, drawn = 0;
+  for (size_t x = 0; x < picture.width; ++x)
+    for (size_t y = 0; y < picture.height; ++y) {
+      const bool is_rim = y == 0 || y + 1 == picture.height;
+      (is_rim ? at_rim : drawn) += !picture.is_paper(x, y);
+    }
+  CHECK(at_rim == 0);
+  CHECK(drawn > 100);
+}
+
 /// Three grains in the box of sample_system(): two beside each other, the third out of the way.
 MotionState three_grains(const MechanicalSystem& system) {
   MotionState state = sample_state(system, 0);
