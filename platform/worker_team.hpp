@@ -103,8 +103,8 @@ class TeamPace {
   static constexpr double long_work = 0.02;
 
   bool is_whole_ = true;
-  int round_ = 0;
-  double whole_ = 0.0, alone_ = 0.0;  ///< least seconds of one unit in the trial
+  int round_ = 2 * trial + apart - 12;  ///< in the first rounds everything is slow: no trial
+  double whole_ = 0.0, alone_ = 0.0;    ///< least seconds of one unit in the trial
 };
 
 /// Of no team the caller is the only member.
