@@ -284,13 +284,10 @@ void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
                                              const std::vector<int>& row_begin, const Impulses& r,
                                              bool masses_are_known) {
   // Each thread adds up what a share of the bodies gets, in the order of the contacts.
-  const int bodies = dynamics.body_count(), shares = size_of(team_);
-  const auto share = [=](int k) {
-    return static_cast<int>(static_cast<long>(bodies) * k / shares);
-  };
+  const int bodies = dynamics.body_count();
   hr_.resize(dynamics.dof_count());
-  run_parts(team_, shares, [&](int k) {
-    contact_to_body_impulse(dynamics, row_begin, r, share(k), share(k + 1), hr_);
+  run_ranges(team_, bodies, /*together=*/1 + bodies / size_of(team_), [&](int begin, int end) {
+    contact_to_body_impulse(dynamics, row_begin, r, begin, end, hr_);
   });
   if (!masses_are_known && !masses_.are_of(dynamics)) masses_.keep(dynamics);
   // v = v_free + M^-1 H^T r

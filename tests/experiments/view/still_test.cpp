@@ -75,16 +75,22 @@ StillOptions small_still(const std::string& way) {
   return options;
 }
 
-TEST_CASE("a cube seen along an axis is a square in the middle, as large as the lens says") {
+/// Cubes of 0.1 m, one 0.8 m above the other.
+ViewData column_of_cubes(size_t count) {
   Scene scene;
   BodySpec body;
   body.shape = std::make_shared<const Polyhedron>(make_box(Vec3::Constant(0.1)));
   body.mass = 1.0;
   body.inertia = Vec3::Ones();
-  scene.bodies = {body};
+  scene.bodies.assign(count, body);
   MotionState state;
   MechanicalSystem system = make_system(scene, state);
-  const Pixels picture = picture_of(view_of(std::move(system), {state}), small_still("x"));
+  for (size_t k = 0; k < count; ++k) state.pose[k].position.z() = 0.8 * static_cast<double>(k);
+  return view_of(std::move(system), {state});
+}
+
+TEST_CASE("a cube seen along an axis is a square in the middle, as large as the lens says") {
+  const Pixels picture = picture_of(column_of_cubes(1), small_still("x"));
   CHECK(picture.is_paper(1, 1));
   CHECK_FALSE(picture.is_paper(100, 80));
   size_t wide = 0, high = 0;
@@ -98,16 +104,7 @@ TEST_CASE("a cube seen along an axis is a square in the middle, as large as the 
 }
 
 TEST_CASE("all of a tall heap is in the picture") {
-  Scene scene;
-  BodySpec body;
-  body.shape = std::make_shared<const Polyhedron>(make_box(Vec3::Constant(0.1)));
-  body.mass = 1.0;
-  body.inertia = Vec3::Ones();
-  scene.bodies = {body, body, body};
-  MotionState state;
-  MechanicalSystem system = make_system(scene, state);
-  for (int k = 0; k < 3; ++k) state.pose[k].position = {0.0, 0.0, 0.8 * k};
-  const Pixels picture = picture_of(view_of(std::move(system), {state}), small_still("home"));
+  const Pixels picture = picture_of(column_of_cubes(3), small_still("home"));
   size_t at_rim = 0, drawn = 0;
   for (size_t x = 0; x < picture.width; ++x)
     for (size_t y = 0; y < picture.height; ++y) {
