@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "geometry/shape/point_sets.hpp"
 
@@ -23,28 +22,6 @@ std::vector<std::uint16_t> in_two_bytes(const std::vector<int>& numbers) {
 float rounded_down(double value) {
   const float nearest = static_cast<float>(value);
   return nearest > value ? std::nextafter(nearest, -HUGE_VALF) : nearest;
-}
-
-/// The boundary of a patch of faces as one loop, counter-clockwise from outside, from its smallest
-/// vertex on.
-std::vector<int> boundary_loop(const Polyhedron& polyhedron, const std::vector<int>& patch,
-                               std::span<const int> members) {
-  const int id = patch[members[0]];
-  std::vector<std::pair<int, int>> next;  // (corner, the corner after it)
-  for (const int f : members) {
-    const std::span<const int> loop = polyhedron.face(f), across = polyhedron.face_neighbours(f);
-    for (size_t k = 0; k < loop.size(); ++k) {
-      if (patch[across[k]] != id) next.emplace_back(loop[k], loop[(k + 1) % loop.size()]);
-    }
-  }
-  std::sort(next.begin(), next.end());
-  std::vector<int> loop{next.front().first};
-  // Edges can be followed as each corner of the outline has one that leaves it: the
-  // one found by the end of the last.
-  while (loop.size() < next.size()) {
-    loop.push_back(std::lower_bound(next.begin(), next.end(), std::pair(loop.back(), -1))->second);
-  }
-  return loop;
 }
 
 }  // namespace
@@ -74,12 +51,6 @@ void AffineRows::evaluate(const Vec3& d, double* __restrict values) const {
   for (int i = 0; i < padded_; ++i) values[i] = ((dx * x[i] + dy * y[i]) + dz * z[i]) + w[i];
 }
 
-double AffineRows::value(int row, const Vec3& d) const {
-  const double* x = table_.data() + row;
-  const size_t n = static_cast<size_t>(padded_);
-  return ((d.x() * x[0] + d.y() * x[n]) + d.z() * x[2 * n]) + x[3 * n];
-}
-
 CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
   if (2 * polyhedron.edge_count() > UINT16_MAX)
     throw InvalidPolyhedron("contact detection takes faces of 65535 corners together, not of " +
@@ -87,10 +58,9 @@ CollisionShape::CollisionShape(const Polyhedron& polyhedron) {
   bounds_.circumradius = polyhedron.circumradius();
   vertices_ = AffineRows(polyhedron.vertex_count(), far_away);
   for (int v = 0; v < polyhedron.vertex_count(); ++v) vertices_.set(v, polyhedron.vertex(v), 0.0);
-  const std::vector<int> patch = merge_coplanar(polyhedron);
-  const std::vector<int> corners = build_faces(polyhedron, patch);
-  build_edges(polyhedron, patch, corners);
-  build_vertex_faces(polyhedron, patch);
+  const std::vector<int> corners = build_faces(polyhedron);
+  build_edges(polyhedron, corners);
+  build_vertex_faces(polyhedron);
   build_ball(polyhedron);
 }
 
@@ -104,57 +74,24 @@ void CollisionShape::write(int f, FaceTable& table) const {
   }
 }
 
-/// Number of the patch that each face belongs to; patches are numbered by their first face. A face
-/// joins when it is parallel to the patch's first face, so that slow curvature does not add up.
-std::vector<int> CollisionShape::merge_coplanar(const Polyhedron& polyhedron) {
-  std::vector<int> patch(polyhedron.normals().size(), -1), queue;
-  int count = 0;
-  for (int first = 0; first < polyhedron.face_count(); ++first) {
-    if (patch[first] >= 0) continue;
-    patch[first] = count;
-    queue.assign(1, first);
-    for (size_t i = 0; i < queue.size(); ++i) {
-      for (const int g : polyhedron.face_neighbours(queue[i])) {
-        if (patch[g] >= 0 || polyhedron.normal(g).dot(polyhedron.normal(first)) < 0.0) continue;
-        if (polyhedron.normal(g).cross(polyhedron.normal(first)).norm() > coplanar_angle) continue;
-        patch[g] = count;
-        queue.push_back(g);
-      }
-    }
-    ++count;
-  }
-  return patch;
-}
-
-/// Writes one face per patch, and how isolated each face's normal is. Returns the corners'
-/// vertices, face by face.
-std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron,
-                                             const std::vector<int>& patch) {
-  const int count = 1 + *std::max_element(patch.begin(), patch.end());
-  std::vector<std::vector<int>> by_patch(count);
-  for (size_t f = 0; f < patch.size(); ++f) by_patch[patch[f]].push_back(static_cast<int>(f));
-  faces_ = AffineRows(count, -far_away);
+/// Writes the faces, and how isolated each one's normal is. Returns the corners' vertices, face by
+/// face.
+std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron) {
+  faces_ = AffineRows(polyhedron.face_count(), -far_away);
   std::vector<int> first_corner, corners;
-  // A patch of one face is that face. Of several the outline is the polygon, and
-  // its area vector gives the normal.
-  for (int p = 0; p < count; ++p) {
-    const std::span<const int> members = by_patch[p], first = polyhedron.face(members[0]);
-    std::vector<int> loop(first.begin(), first.end());
-    Vec3 normal = polyhedron.normal(members[0]);
-    if (members.size() > 1) {
-      loop = boundary_loop(polyhedron, patch, members);
-      normal = area_vector(loop, polyhedron.vertices()).normalized();
-    }
-    // Through the highest vertex and not the mean of the corners: no
-    // vertex is in front of its face.
+  for (int f = 0; f < polyhedron.face_count(); ++f) {
+    const Vec3& normal = polyhedron.normal(f);
+    // Through the highest vertex and not the mean of the corners: no vertex is in front of its
+    // face.
     double offset = -far_away;
-    for (int v = 0; v < vertices_.count(); ++v)
-      offset = std::max(offset, vertices_.value(v, normal));
-    faces_.set(p, normal, -offset);
+    for (const Vec3& vertex : polyhedron.vertices())
+      offset = std::max(offset, vertex_height(normal, vertex));
+    faces_.set(f, normal, -offset);
     first_corner.push_back(static_cast<int>(corners.size()));
-    for (const int v : loop) {
+    for (const int v : polyhedron.face(f)) {
       corners.push_back(v);
-      bounds_.unevenness = std::max(bounds_.unevenness, offset - vertices_.value(v, normal));
+      bounds_.unevenness =
+          std::max(bounds_.unevenness, offset - vertex_height(normal, polyhedron.vertex(v)));
     }
   }
   first_corner.push_back(static_cast<int>(corners.size()));
@@ -180,9 +117,8 @@ void CollisionShape::measure_isolation() {
   for (const double sine : sines) isolation_.push_back(rounded_down(sine));
 }
 
-/// Writes the edges between patches, and where they stand in the loops of the two faces beside.
-void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch,
-                                 std::span<const int> corners) {
+/// Writes the edges, and where they stand in the loops of the two faces beside.
+void CollisionShape::build_edges(const Polyhedron& polyhedron, std::span<const int> corners) {
   std::vector<int> edges, corner_edge(corners.size());
   drop_.reserve(corner_edge.size() / 2);
   const auto enter = [&](int f, int from) {
@@ -191,9 +127,8 @@ void CollisionShape::build_edges(const Polyhedron& polyhedron, const std::vector
     corner_edge[corner] = edge_count();
   };
   for (const Polyhedron::Edge& edge : polyhedron.edges()) {
-    const EdgeEnds ends{in_two_bytes(edge.tail), in_two_bytes(edge.head),
-                        in_two_bytes(patch[edge.left]), in_two_bytes(patch[edge.right])};
-    if (ends.left == ends.right) continue;
+    const EdgeEnds ends{in_two_bytes(edge.tail), in_two_bytes(edge.head), in_two_bytes(edge.left),
+                        in_two_bytes(edge.right)};
     enter(ends.left, ends.tail);
     enter(ends.right, ends.head);
     edges.insert(edges.end(), {ends.tail, ends.head, ends.left, ends.right});
@@ -214,17 +149,16 @@ double CollisionShape::drop_below(const EdgeEnds& edge, const Polyhedron& polyhe
       below = std::min(below, left.offset - left.normal.dot(polyhedron.vertex(v)) + right.offset -
                                   right.normal.dot(polyhedron.vertex(v)));
   const double length = (polyhedron.vertex(edge.head) - polyhedron.vertex(edge.tail)).norm();
-  return below * length / left.normal.cross(right.normal).norm();
+  const double sine = left.normal.cross(right.normal).norm();
+  constexpr double coplanar = 1e-9;  // rounding of the normals would be most of the bound
+  return sine < coplanar ? 0.0 : below * length / sine;
 }
 
-void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron,
-                                        const std::vector<int>& patch) {
+void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron) {
   std::vector<int> begins{0}, all;
   for (const std::vector<int>& faces : polyhedron.faces_by_vertex()) {
-    for (const int f : faces) all.push_back(patch[f]);
-    const auto begin = all.begin() + begins.back();
-    std::sort(begin, all.end());
-    all.erase(std::unique(begin, all.end()), all.end());
+    all.insert(all.end(), faces.begin(), faces.end());
+    std::sort(all.begin() + begins.back(), all.end());
     begins.push_back(static_cast<int>(all.size()));
   }
   vertex_begin_ = in_two_bytes(begins);

@@ -31,13 +31,17 @@ class AffineRows {
 
   /// values[i] = xyz(i).d + w(i) for all padded() rows.
   void evaluate(const Vec3& d, double* values) const;
-  /// Of one row, to the last bit.
-  double value(int row, const Vec3& d) const;
 
  private:
   int count_ = 0, padded_ = 0;
   std::vector<double> table_;
 };
+
+/// A vertex's height along direction d from the origin of its frame [m], added up in the order of
+/// AffineRows::evaluate.
+inline double vertex_height(const Vec3& d, const Vec3& vertex) {
+  return ((d.x() * vertex.x() + d.y() * vertex.y()) + d.z() * vertex.z()) + 0.0;
+}
 
 /// The sizes of a body that every test of a pair needs, in one cache line.
 struct alignas(64) BodyBounds {
@@ -48,9 +52,8 @@ struct alignas(64) BodyBounds {
                               ///< rounding, or within the polyhedron's tolerance
 };
 
-/// Built once per shape. Neighbouring faces of a Polyhedron that lie in one plane (triangulated
-/// boxes) are one face here, so that a contact patch does not end at a diagonal. Frame: that of the
-/// polyhedron [m].
+/// Built once per shape, in the frame of the polyhedron [m]. Neighbouring faces in one plane
+/// are best joined before, as convex_hull() and read_mesh() do: a contact patch ends at their edge.
 ///
 /// Kept are positions, planes and which feature borders on which: of thousands of shapes, each with
 /// its own grain, few are in the cache, and each byte counts. Whatever follows from them, the
@@ -58,9 +61,6 @@ struct alignas(64) BodyBounds {
 /// bits.
 class CollisionShape {
  public:
-  /// Two faces whose normals differ by less than this angle [rad] are one.
-  static constexpr double coplanar_angle = 1e-9;
-
   struct Face {
     Vec3 normal;       ///< outward, unit
     double offset;     ///< support of the whole polyhedron along the normal
@@ -132,13 +132,11 @@ class CollisionShape {
   double circumradius() const { return bounds_.circumradius; }
 
  private:
-  std::vector<int> merge_coplanar(const Polyhedron& polyhedron);
-  std::vector<int> build_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  std::vector<int> build_faces(const Polyhedron& polyhedron);
   void measure_isolation();
-  void build_edges(const Polyhedron& polyhedron, const std::vector<int>& patch,
-                   std::span<const int> corners);
+  void build_edges(const Polyhedron& polyhedron, std::span<const int> corners);
   double drop_below(const EdgeEnds& edge, const Polyhedron& polyhedron) const;
-  void build_vertex_faces(const Polyhedron& polyhedron, const std::vector<int>& patch);
+  void build_vertex_faces(const Polyhedron& polyhedron);
   void build_ball(const Polyhedron& polyhedron);
 
   AffineRows vertices_, faces_;

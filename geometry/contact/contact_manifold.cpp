@@ -95,41 +95,6 @@ bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, double al
          axis.separation + axis.clearance > alert + thickness;
 }
 
-EdgeOfFace edge_of_face(const CollisionShape::Edge& edge, int index,
-                        const CollisionShape::FaceView& face) {
-  int own = 0;
-  while (face.corners[own].edge != index) ++own;
-  return {edge, face.sides, own};
-}
-
-/// Over the faces' common part the height between them is a linear function. It is least at the
-/// crossing x0, and the part's corner there lies between the directions of the two edges. Each of
-/// these is tilted along the axis into the incident plane, which stretches it by
-/// sqrt(1 + rise^2). Let `room` be the distance from x0 to the nearest other side of either face.
-/// Nearer than that no other side cuts, so every other corner is at least that far from x0 and at
-/// least room times the lesser slope higher. The sides of the reference face are cut along the
-/// axis instead of its normal: the factor 0.98 allows for the cosine of at least 0.99 between them.
-bool is_lone_crossing(const PairFrame& pair, const SeparatingAxis& axis,
-                      const EdgesMeeting& meeting, const EdgeOfFace& a, const EdgeOfFace& b,
-                      double alert) {
-  const double thickness = clipping_thickness(pair.size());
-  if (!meeting.across || !(axis.inside > thickness)) return false;
-  double room = pair.size();
-  const auto narrow = [&](const EdgeOfFace& of, double at) {
-    const Vec3 crossing = of.edge.from + at * of.edge.along;
-    for (size_t k = 0; k < of.sides.size(); ++k) {
-      const CollisionShape::Side& side = of.sides[k];
-      if (static_cast<int>(k) != of.own)
-        room = std::min(room, side.offset - side.outward.dot(crossing));
-    }
-  };
-  narrow(a, axis.at_a);
-  narrow(b, axis.at_b);
-  const auto slope_of = [](double rise) { return rise / std::sqrt(1.0 + rise * rise); };
-  const double slope = std::min(slope_of(meeting.rise_a), slope_of(meeting.rise_b));
-  return room > 4.0 * thickness && axis.separation + 0.98 * room * slope > alert + 4.0 * thickness;
-}
-
 int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
   const CollisionShape& other = *pair.shape[1 - reference];
   const Vec3 direction =
@@ -158,9 +123,6 @@ std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair,
     pair.shape[0]->write(meeting.face_a, face_of_[0]);
     pair.shape[1]->write(meeting.face_b, face_of_[1]);
     const CollisionShape::FaceView beside_a = face_of_[0].view(), beside_b = face_of_[1].view();
-    if (is_lone_crossing(pair, axis, meeting, edge_of_face(a, feature.a, beside_a),
-                         edge_of_face(b, feature.b, beside_b), alert))
-      return lone_point(pair, axis, edges_cross(pair, axis, a, b));
     return points(pair, axis, meeting, {a, b, beside_a, beside_b}, alert, max_points);
   }
   const int reference = feature.reference(), face = feature.face();

@@ -65,10 +65,10 @@ class FaceClipper {
 
 // ---- one point only
 //
-// Most manifolds are one vertex over a face or two edges across, and their place is known from the
-// axis. A proof from the features' records alone spares the clipping of faces, and the look at the
-// shapes' tables. Each is sufficient, not necessary: without a proof the points are collected,
-// which gives the same one, to the same bits.
+// Most manifolds are one vertex over a face, whose place is known from the axis. A proof from the
+// features' records alone spares the clipping of faces, and the look at the shapes' tables. It is
+// sufficient, not necessary: without it the points are collected, which gives the same one, to the
+// same bits.
 
 /// Corners up to this far outside a side of a face [m] still count as on the face. `size`: of the
 /// pair.
@@ -78,22 +78,6 @@ constexpr double clipping_thickness(double size) { return 1e-9 * size; }
 /// of the other body rises out of reach before it gets to the sides or to another vertex. The
 /// axis' clearance may be a lower bound.
 bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, double alert);
-
-/// An edge and a face beside it, by the planes on the face's sides.
-struct EdgeOfFace {
-  const CollisionShape::Edge& edge;
-  std::span<const CollisionShape::Side> sides;
-  int own;  ///< the side that stands on the edge; -1: it is left out
-};
-/// `index`: of the edge in its shape.
-EdgeOfFace edge_of_face(const CollisionShape::Edge& edge, int index,
-                        const CollisionShape::FaceView& face);
-
-/// The axis is two edges, flat on one another, and their crossing is the only point within `alert`
-/// [m]: all other corners of the common part of the two faces (`meeting`'s) are out of reach.
-bool is_lone_crossing(const PairFrame& pair, const SeparatingAxis& axis,
-                      const EdgesMeeting& meeting, const EdgeOfFace& a, const EdgeOfFace& b,
-                      double alert);
 
 /// Holds scratch memory; one per thread.
 class ContactManifold {

@@ -10,13 +10,11 @@ namespace {
 /// normals, so that the faces' records need not be read.
 struct FaceBesideEdge {
   int face;
-  Vec3 normal;
   double cosine;
 };
 FaceBesideEdge most_aligned(const CollisionShape::Edge& edge, const Vec3& d) {
   const double left = edge.left_normal.dot(d), right = edge.right_normal.dot(d);
-  return left >= right ? FaceBesideEdge{edge.left, edge.left_normal, left}
-                       : FaceBesideEdge{edge.right, edge.right_normal, right};
+  return left >= right ? FaceBesideEdge{edge.left, left} : FaceBesideEdge{edge.right, right};
 }
 
 }  // namespace
@@ -74,11 +72,6 @@ EdgesMeeting::EdgesMeeting(const PairFrame& pair, const SeparatingAxis& axis,
   // |a x b| = |a| |b| sin, squared so that no root is needed.
   across = a.along.cross(along_b).squaredNorm() >
            across_squared * a.along.squaredNorm() * along_b.squaredNorm();
-  const Vec3 along_a = pair.other[1].rotation * a.along;
-  // An edge of direction t lies across the axis d. A plane of normal n changes its height along d
-  // by |n.t| / n.d for a unit of length along t.
-  rise_a = std::abs(beside_b.normal.dot(along_a)) / (a.length * beside_b.cosine);
-  rise_b = std::abs(beside_a.normal.dot(along_b)) / (b.length * beside_a.cosine);
 }
 
 }  // namespace ballast

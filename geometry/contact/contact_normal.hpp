@@ -113,8 +113,6 @@ struct EdgesMeeting {
   int face_a, face_b;         ///< of the two faces beside each edge, the one facing the other body
   bool flat_on_a, flat_on_b;  ///< the other body lies nearly flat on that face
   bool across;                ///< the edges are not nearly parallel
-  double rise_a, rise_b;      ///< per unit length along each edge, how fast the other's face rises
-                              ///< from it; no less anywhere off the edges
   /// Neither body lies flat on the other: the crossing is the only point. An edge along the
   /// face's own side has no second end on the face, hence "across".
   bool is_sharp() const {

@@ -223,7 +223,7 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, alert)) return;
   if (settings_.use_cache) {
     if (candidate.touching < 0) candidate.touching = new_place();
-    records_.touching[candidate.touching].record(pair, axis, turn, alert, heights_);
+    records_.touching[candidate.touching].record(pair, axis, turn, heights_);
   }
   append(candidate, pair, axis, manifold_.points(pair, axis, alert, settings_.max_points),
          contacts);

@@ -140,11 +140,6 @@ SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
                          const CollisionShape::Edge& a, const CollisionShape::Edge& b,
                          const EdgeSeparation& found);
 
-/// A vertex's height along direction d from the origin of its frame [m], added up in the order of
-/// AffineRows::evaluate.
-inline double vertex_height(const Vec3& d, const Vec3& vertex) {
-  return ((d.x() * vertex.x() + d.y() * vertex.y()) + d.z() * vertex.z()) + 0.0;
-}
 /// The separation along a face of body `own`. `height`: vertex_height of the other body's lowest
 /// vertex along the face's normal.
 inline double face_separation_at(const PairFrame& pair, int own, const CollisionShape::Face& face,

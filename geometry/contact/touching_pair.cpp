@@ -34,42 +34,32 @@ LowestCorner lowest_corner(std::span<const CollisionShape::Corner> corners, cons
 }  // namespace
 
 void TouchingPair::record(const ShapePair& pair, const SeparatingAxis& axis, double turn,
-                          double alert, Heights& heights) {
+                          Heights& heights) {
   contact_ = std::monostate{};
   feature_ = axis.feature;
   if (feature_.kind == AxisKind::edges)
-    record_edges(pair, axis, alert);
+    record_edges(pair, axis);
   else
     record_faces(pair, axis.support, turn, heights);
 }
 
-void TouchingPair::record_edges(const ShapePair& pair, const SeparatingAxis& axis, double alert) {
+void TouchingPair::record_edges(const ShapePair& pair, const SeparatingAxis& axis) {
   Edges& edges = contact_.emplace<Edges>();
   edges.face[0] = edges.face[1] = -1;
   edges.a = pair.shape[0]->edge(feature_.a);
   edges.b = pair.shape[1]->edge(feature_.b);
   const EdgesMeeting meeting(pair, axis, edges.a, edges.b);
-  const int face[2] = {meeting.face_a, meeting.face_b}, edge[2] = {feature_.a, feature_.b};
+  const int face[2] = {meeting.face_a, meeting.face_b};
   const int corners[2] = {pair.shape[0]->corner_count(face[0]),
                           pair.shape[1]->corner_count(face[1])};
   if (meeting.is_sharp() || std::max(corners[0], corners[1]) > static_cast<int>(most)) return;
-  Sides& sides = edges.beside.emplace<Sides>();
   for (int body = 0; body < 2; ++body) {
     edges.face[body] = face[body];
-    sides.count[body] = 0;
+    Corners& kept = edges.beside[body];
+    kept.count = corners[body];
+    kept.offset = pair.shape[body]->face(face[body]).offset;
     for (int k = 0; k < corners[body]; ++k)
-      if (pair.shape[body]->corner(face[body], k).edge != edge[body])
-        sides.side[body][sides.count[body]++] = pair.shape[body]->side(face[body], k);
-  }
-  if (is_lone_crossing(pair, axis, meeting, sides.beside(edges.a, 0), sides.beside(edges.b, 1),
-                       alert))
-    return;
-  Corners& kept = edges.beside.emplace<Corners>();
-  for (int body = 0; body < 2; ++body) {
-    kept.count[body] = corners[body];
-    kept.offset[body] = pair.shape[body]->face(face[body]).offset;
-    for (int k = 0; k < corners[body]; ++k)
-      kept.corner[body][k] = pair.shape[body]->corner(face[body], k);
+      kept.corner[k] = pair.shape[body]->corner(face[body], k);
   }
 }
 
@@ -183,24 +173,16 @@ TouchingPair::Look TouchingPair::look_at(const Edges& edges, const PairFrame& pa
     return Look::touching;
   }
   if (meeting.face_a != edges.face[0] || meeting.face_b != edges.face[1]) return Look::undecided;
-  if (const auto* corners = std::get_if<Corners>(&edges.beside)) {
-    const auto plane = [&](const CollisionShape::Edge& edge, int body) {
-      const bool is_left = edges.face[body] == edge.left;
-      return CollisionShape::Face{is_left ? edge.left_normal : edge.right_normal,
-                                  corners->offset[body], 0.0};
-    };
-    const CollisionShape::Face face_a = plane(edges.a, 0), face_b = plane(edges.b, 1);
-    points = manifold.points(
-        pair, axis, meeting,
-        {edges.a, edges.b, {face_a, corners->of(0), {}}, {face_b, corners->of(1), {}}}, alert,
-        max_points);
-    return Look::touching;
-  }
-  const Sides& sides = std::get<Sides>(edges.beside);
-  if (!is_lone_crossing(pair, axis, meeting, sides.beside(edges.a, 0), sides.beside(edges.b, 1),
-                        alert))
-    return Look::undecided;
-  points = manifold.lone_point(pair, axis, edges_cross(pair, axis, edges.a, edges.b));
+  const auto plane = [&](const CollisionShape::Edge& edge, int body) {
+    const bool is_left = edges.face[body] == edge.left;
+    return CollisionShape::Face{is_left ? edge.left_normal : edge.right_normal,
+                                edges.beside[body].offset, 0.0};
+  };
+  const CollisionShape::Face face_a = plane(edges.a, 0), face_b = plane(edges.b, 1);
+  points = manifold.points(
+      pair, axis, meeting,
+      {edges.a, edges.b, {face_a, edges.beside[0].all(), {}}, {face_b, edges.beside[1].all(), {}}},
+      alert, max_points);
   return Look::touching;
 }
 

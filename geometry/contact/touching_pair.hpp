@@ -18,8 +18,7 @@ class TouchingPair {
  public:
   /// Records a pair's best axis. `turn`: the sum of both bodies' Travel::turn. `heights`: scratch.
   /// Faces with too many corners are not recorded.
-  void record(const ShapePair& pair, const SeparatingAxis& axis, double turn, double alert,
-              Heights& heights);
+  void record(const ShapePair& pair, const SeparatingAxis& axis, double turn, Heights& heights);
 
   enum class Look { undecided, apart, touching };
   /// Looks at the pair in its present pose.
@@ -54,34 +53,24 @@ class TouchingPair {
                   ///< more than the turn times the other body's diameter, cosines by no more than
                   ///< the turn.
   };
-  /// Of the faces beside two edges, the planes on the sides but that on the edge: they prove that
-  /// the crossing is alone.
-  struct Sides {
-    int count[2];
-    std::array<CollisionShape::Side, most - 1> side[2];
-
-    EdgeOfFace beside(const CollisionShape::Edge& edge, int body) const {
-      return {edge, {side[body].data(), static_cast<size_t>(count[body])}, -1};
-    }
-  };
-  /// Where it is not: the faces' corners, of which the other points are made.
+  /// A face beside an edge.
   struct Corners {
-    int count[2];
-    double offset[2];  ///< of the faces' planes
-    std::array<CollisionShape::Corner, most> corner[2];
+    int count;
+    double offset;  ///< of the face's plane
+    std::array<CollisionShape::Corner, most> corner;
 
-    std::span<const CollisionShape::Corner> of(int body) const {
-      return {corner[body].data(), static_cast<size_t>(count[body])};
+    std::span<const CollisionShape::Corner> all() const {
+      return {corner.data(), static_cast<size_t>(count)};
     }
   };
   /// Two edges and, if they are flat, what is needed of the faces beside them.
   struct Edges {
     CollisionShape::Edge a, b;
     int face[2];  ///< those faces; -1: nothing is kept
-    std::variant<Sides, Corners> beside;
+    Corners beside[2];
   };
 
-  void record_edges(const ShapePair& pair, const SeparatingAxis& axis, double alert);
+  void record_edges(const ShapePair& pair, const SeparatingAxis& axis);
   void record_faces(const ShapePair& pair, int support, double turn, Heights& heights);
   Look look_at(const Faces& faces, const PairFrame& pair, double turn, double alert, int max_points,
                ContactManifold& manifold, SeparatingAxis& axis,

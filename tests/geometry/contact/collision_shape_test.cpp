@@ -74,28 +74,31 @@ TEST_CASE("tables agree with the polyhedron they come from") {
   }
 }
 
-TEST_CASE("coplanar triangles become one face") {
-  const CollisionShape box(triangulated_box(Vec3(1, 2, 3)));
-  CHECK(box.faces().count() == 6);
-  CHECK(box.edge_count() == 12);
-  for (int f = 0; f < 6; ++f) {
-    CHECK(box.corner_count(f) == 4);
-    CHECK(box.face(f).isolation == Approx(1.0));
+TEST_CASE("an edge between two faces in one plane bounds no depth") {
+  const Polyhedron box = make_box(Vec3(1, 2, 3));
+  std::vector<std::vector<int>> triangles;
+  for (int f = 0; f < box.face_count(); ++f) {
+    const auto c = box.face(f);
+    triangles.push_back({c[0], c[1], c[2]});
+    triangles.push_back({c[0], c[2], c[3]});
   }
-  for (int v = 0; v < 8; ++v) CHECK(box.vertex_face_count(v) == 3);
-
+  const Polyhedron split({box.vertices().begin(), box.vertices().end()}, triangles);
   // turned, so that coplanar only holds to rounding
   Random random(3);
   const Quat rotation = random_rotation(random);
-  const Polyhedron upright = triangulated_box(Vec3(0.01, 0.02, 0.03));
   std::vector<Vec3> vertices;
-  for (const Vec3& p : upright.vertices()) vertices.push_back(rotation * p);
-  CHECK(CollisionShape(upright.with_vertices(vertices)).faces().count() == 6);
-
-  // bent along the diagonal by more than the threshold: stays two
-  vertices.assign(upright.vertices().begin(), upright.vertices().end());
-  vertices[upright.face(0)[0]] *= 1.0 + 1e-6;
-  CHECK(CollisionShape(convex_hull(vertices)).faces().count() > 6);
+  for (const Vec3& p : split.vertices()) vertices.push_back(rotation * p);
+  const CollisionShape shape(split.with_vertices(vertices));
+  REQUIRE(shape.edge_count() == 18);
+  int diagonals = 0;
+  for (int e = 0; e < shape.edge_count(); ++e) {
+    const CollisionShape::Edge edge = shape.edge(e);
+    const bool is_diagonal = edge.left_normal.dot(edge.right_normal) > 0.5;
+    diagonals += is_diagonal;
+    CHECK((edge.drop == 0.0f) == is_diagonal);
+  }
+  CHECK(diagonals == 6);
+  CHECK(CollisionShape(convex_hull(vertices)).edge_count() == 12);
 }
 
 TEST_CASE("the ball lies inside also when the origin does not") {

@@ -29,7 +29,7 @@ std::vector<Polyhedron> make_pool() {
   pool.push_back(make_box(Vec3(0.04, 0.06, 0.09)));
   pool.push_back(make_box(Vec3(0.1, 0.1, 0.004)));
   pool.push_back(make_box(Vec3(0.005, 0.004, 0.1)));
-  pool.push_back(triangulated_box(Vec3(0.05, 0.06, 0.04)));
+  pool.push_back(make_box(Vec3(0.05, 0.06, 0.04)));
   for (int sides : {3, 5, 8}) pool.push_back(prism(sides, 0.03, 0.05));
   pool.push_back(make_sphere(0.04, 0));
   for (int i = 0; i < 10; ++i) {
@@ -154,17 +154,6 @@ Polyhedron prism(int sides, double radius, double height) {
     faces.push_back({2 * k, 2 * l, 2 * l + 1, 2 * k + 1});
   }
   return Polyhedron(vertices, faces);
-}
-
-Polyhedron triangulated_box(const Vec3& size) {
-  const Polyhedron box = make_box(size);
-  std::vector<std::vector<int>> triangles;
-  for (int f = 0; f < box.face_count(); ++f) {
-    const auto c = box.face(f);
-    triangles.push_back({c[0], c[1], c[2]});
-    triangles.push_back({c[0], c[2], c[3]});
-  }
-  return Polyhedron({box.vertices().begin(), box.vertices().end()}, triangles);
 }
 
 BruteForce brute_force(const Polyhedron& a, const Polyhedron& b, const RelativePose& b_in_a) {

@@ -22,8 +22,6 @@ CollisionShape::FaceTable face_table(const CollisionShape& shape, int face);
 Quat turned_onto(const Vec3& from, const Vec3& to);
 
 Polyhedron prism(int sides, double radius, double height);
-/// A box whose sides are split into two triangles each.
-Polyhedron triangulated_box(const Vec3& size);
 
 /// A pair's best axis, and its normal and points; without points when the bodies are more than
 /// `alert` apart.

@@ -56,7 +56,7 @@ TEST_CASE("a remembered pair says what the tables say, bit for bit, or nothing")
     const Known before = ask_tables(c.pair(), {});
     if (is_separated(before.outcome)) continue;
     TouchingPair remembered;
-    remembered.record(c.pair(), before.axis, 3.0, alert, heights);
+    remembered.record(c.pair(), before.axis, 3.0, heights);
     double chord = 0.0;
     const PairCase moved{c.a, c.b, jiggled(c.b_in_a, random, chord)};
     SeparatingAxis axis;
