@@ -129,19 +129,19 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
   column("penetration max", "um", &StepRecord::penetration_max, 1e6);
 }
 
-/// Steps a packing, and says what they took: the child's work.
-void measure_packing(const DepositedBox& box, const ScalingOptions& options, ScalingPoint& point) {
+/// Steps a packing of the cache, and says what they took: the child's work.
+void measure_packing(Scene scene, const std::filesystem::path& cache, const ScalingOptions& options,
+                     ScalingPoint& point) {
   const std::string group = thread_words(point.threads) + printed(", %.0f grains", point.grains);
   const auto add = [&](const char* name, const char* unit, std::vector<double> values) {
     point.measured.push_back(measurement_of(group, name, unit, std::move(values)));
   };
   const double before = peak_memory_MB(), ns = 1e9 / point.grains;
-  PreparedRun start = tiled_start(box, point.nx, point.ny);
-  Scene scene = box.scene;
+  PreparedRun start = settled_start(deposited_box(scene, cache));
   scene.solver.threads = point.threads;
   std::vector<StepRecord> steps;
   TimeStepper stepper(start.system, scene, -1);
-  // Steps with k < 0 warm up: the seams between the copies settle, caches fill.
+  // Steps with k < 0 warm up: caches fill.
   for (int k = -options.warm_up; k < options.steps; ++k) {
     const StepRecord step = stepper.step(start.state, start.memory);
     if (k >= 0) steps.push_back(step);
@@ -245,33 +245,41 @@ double ScalingPoint::value(const std::string& name) const {
   return found == measured.end() ? not_known : found->median;
 }
 
-std::pair<int, int> tiles_for(long grains, int block) {
-  const double tiles = std::max(1.0, static_cast<double>(grains) / block);
+std::pair<int, int> tiles_for(long grains, int of_tile) {
+  const double tiles = std::max(1.0, static_cast<double>(grains) / of_tile);
   const int nx = std::max(1, static_cast<int>(std::lround(std::sqrt(tiles))));
   return {nx, std::max(1, static_cast<int>(std::lround(tiles / nx)))};
 }
 
-std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
+std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesystem::path& cache,
+                                          const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said) {
   std::vector<ScalingPoint> points;
-  const int block = static_cast<int>(box.rain.grains.size());
   for (const int grains : options.grains)
     for (const int threads : options.threads) {
       ScalingPoint point;
       point.threads = threads;
-      std::tie(point.nx, point.ny) = tiles_for(grains, block);
-      point.grains = static_cast<double>(point.nx) * point.ny * block;
-      const ChildResult child = run_in_child(3600.0, [&] {
-        measure_packing(box, options, point);
+      std::tie(point.nx, point.ny) = tiles_for(grains, tile.grains->count);
+      Scene scene = tiled_scene(tile, point.nx, point.ny);
+      scene.solver.threads = std::ranges::max(options.threads);  // while it is deposited
+      point.grains = scene.grains->count;
+      const auto in_child = [&](const std::function<std::string()>& work) {
+        constexpr double day = 86400.0;  // [s]
+        const ChildResult child = run_in_child(day, work);
+        if (child.end != ChildEnd::complete)
+          throw Error(
+              printed("bench scaling: %.0f grains: the child ", point.grains) +
+              (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
+        return child.answer;
+      };
+      in_child([&] { return std::string(deposited_box(scene, cache).packing.key); });
+      const std::string answer = in_child([&] {
+        measure_packing(scene, cache, options, point);
         Packer packer;
         carry(packer, point.measured);
         return packer.bytes();
       });
-      if (child.end != ChildEnd::complete)
-        throw Error(
-            printed("bench scaling: %.0f grains: the child ", point.grains) +
-            (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
-      Unpacker unpacker(child.answer, "bench scaling: a child's answer");
+      Unpacker unpacker(answer, "bench scaling: a child's answer");
       carry(unpacker, point.measured);
       unpacker.finish();
       points.push_back(std::move(point));
@@ -280,16 +288,17 @@ std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const Scaling
   return points;
 }
 
-DepositedBox deposited_box(const std::string& name, const std::vector<std::string>& overrides,
-                           const std::filesystem::path& cache) {
-  DepositedBox box;
-  box.scene = resolve_run(name, overrides).scene;
-  if (!box.scene.grains) throw Error(name + ": has no grains: a bench needs a deposited packing");
-  box.rain = make_rain(box.scene);
+Scene bench_scene(const std::string& name, const std::vector<std::string>& overrides) {
+  Scene scene = resolve_run(name, overrides).scene;
+  if (!scene.grains) throw Error(name + ": has no grains: a bench needs a deposited packing");
+  return scene;
+}
+
+DepositedBox deposited_box(const Scene& scene, const std::filesystem::path& cache) {
+  DepositedBox box{scene, make_rain(scene), {}};
   const InterruptGuard guard;
-  double deposit_seconds = 0.0;
   const PackingOrder order{cache, [] { return !InterruptGuard::requested(); }};
-  if (!take_packing(box.scene, box.rain, order, box.packing, deposit_seconds))
+  if (!take_packing(box.scene, box.rain, order, box.packing))
     throw Error("interrupted; the same command goes on depositing");
   return box;
 }
@@ -301,12 +310,11 @@ PreparedRun driven_start(const DepositedBox& box) {
   return start;
 }
 
-PreparedRun tiled_start(const DepositedBox& box, int nx, int ny) {
-  const Scene scene = tiled_scene(box.scene, nx, ny);
+PreparedRun settled_start(DepositedBox box) {
   PreparedRun start;
-  start.system = box_system(scene, tiled_rain(scene, box.rain), BoxStage::settle,
-                            box.packing.deposit.lid, &start.state);
-  place_copies(scene, box.packing, start.state, start.memory);
+  start.system = box_system(box.scene, box.rain, BoxStage::settle, box.packing.deposit.lid);
+  start.state = std::move(box.packing.state);
+  start.memory = std::move(box.packing.memory);
   return start;
 }
 

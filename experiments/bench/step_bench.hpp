@@ -14,9 +14,6 @@
 
 namespace ballast {
 
-// Packings for `ballast bench`: the vibrated box as deposited, and large ones of the same kind made
-// of it.
-
 /// A scene with `grains`, and its deposited packing.
 struct DepositedBox {
   Scene scene;
@@ -24,17 +21,17 @@ struct DepositedBox {
   Packing packing;
 };
 
-/// From `cache`, or deposited now and kept there (resumable). Throws Error: a scene without grains,
-/// interrupted; SceneFileError.
-DepositedBox deposited_box(const std::string& scene, const std::vector<std::string>& overrides,
-                           const std::filesystem::path& cache);
+/// Throws Error: a scene without grains; SceneFileError.
+Scene bench_scene(const std::string& name, const std::vector<std::string>& overrides);
+
+/// From `cache`, or deposited now and kept there (resumable). Throws Error: interrupted.
+DepositedBox deposited_box(const Scene& scene, const std::filesystem::path& cache);
 
 /// The driven box at its first step.
 PreparedRun driven_start(const DepositedBox& box);
 
-/// nx by ny copies of the packing side by side (experiments/box/tiles.hpp), in one large box whose
-/// walls stand still (the settling stage: with the raised lid).
-PreparedRun tiled_start(const DepositedBox& box, int nx, int ny);
+/// The box as it has settled, behind walls that stand still.
+PreparedRun settled_start(DepositedBox box);
 
 /// One kernel: `call` is timed, and does `items` items.
 struct Kernel {
@@ -76,7 +73,7 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
                                            int threads);
 
 struct ScalingOptions {
-  std::vector<int> grains;  ///< wanted; what comes is the block's grains times a number of tiles
+  std::vector<int> grains;  ///< wanted; what comes is the scene's grains times a number of tiles
   std::vector<int> threads{1};
   int warm_up = 5, steps = 10;  ///< of each packing
 };
@@ -93,12 +90,14 @@ struct ScalingPoint {
   double value(const std::string& name) const;
 };
 
-/// Tiles nx * ny near grains / block, as square as can be.
-std::pair<int, int> tiles_for(long grains, int block);
+/// Tiles nx * ny near grains / of_tile, as square as can be.
+std::pair<int, int> tiles_for(long grains, int of_tile);
 
-/// Each packing in a child process of at most an hour, so that its memory is its own. `said` hears
-/// of each. Throws Error where a child fails: out of memory, out of time.
-std::vector<ScalingPoint> measure_scaling(const DepositedBox& box, const ScalingOptions& options,
+/// Boxes of as many tiles (experiments/box/tiles.hpp) as have about the wanted grains, each
+/// deposited and then measured in child processes of at most a day, so that its memory is its own.
+/// `said` hears of each. Throws Error where a child fails: out of memory, out of time.
+std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesystem::path& cache,
+                                          const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said);
 
 }  // namespace ballast

@@ -81,7 +81,7 @@ class Depositor {
     packing_ = {packing_key(scene_), name_of(stage_), {}, {}, {}};
     packing_.deposit.lid = 2.0 * rain_.height;  // out of the way
     box_system(scene_, rain_, stage_, packing_.deposit.lid, &packing_.state);
-    if (tile_) place_copies(scene_, *tile_, packing_.state, packing_.memory);
+    if (tile_) place_copies(scene_, tile_->state, packing_.state);
   }
 
   size_t lid() const { return rain_.grains.size() + wall_lid; }
@@ -193,8 +193,8 @@ fs::path packing_file(const fs::path& cache, const std::string& key) {
   return (cache / ("packing-" + key + ".bin")).lexically_normal();
 }
 
-bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order, Packing& packing,
-                  double& deposit_seconds) {
+bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order,
+                  Packing& packing) {
   const std::string key = packing_key(scene);
   const fs::path file = packing_file(order.cache, key), part = file.string() + ".part";
   const auto say = [&](const std::string& words) {
@@ -215,12 +215,11 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   });
   if (!lock.is_held()) return false;
   if (find()) return true;  // made by whoever held the lock
-  const Stopwatch watch;
   Packing tile;
   const bool is_tiled = scene.deposit.tiles() > 1;
   if (is_tiled) {
     const Scene one = tile_of(scene);
-    if (!take_packing(one, make_rain(one), order, tile, deposit_seconds)) return false;
+    if (!take_packing(one, make_rain(one), order, tile)) return false;
   }
   say("depositing " + std::to_string(rain.grains.size()) + " grains (kept in " + file.string() +
       ")");
@@ -237,7 +236,6 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   if (!is_done) return false;
   write_checkpoint(file, packing);
   fs::remove(part);
-  deposit_seconds = watch.seconds();
   return true;
 }
 

@@ -46,9 +46,8 @@ struct PackingOrder {
 
 /// The scene's packing from the cache; where it is missing it is deposited, or waited for when
 /// another process is depositing it. Says on stdout which, on stderr how far. False: stopped.
-/// `deposit_seconds`: set when this process deposited [s of wall clock]. Throws Error: it does
-/// not come to rest, the file is broken or cannot be written.
-bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order, Packing& packing,
-                  double& deposit_seconds);
+/// Throws Error: it does not come to rest, the file is broken or cannot be written.
+bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order,
+                  Packing& packing);
 
 }  // namespace ballast

@@ -3,17 +3,15 @@
 // deposit of a small box, and the rest of the copies.
 
 #include "experiments/box/vibrated_box.hpp"
-#include "experiments/record/checkpoint.hpp"
 
 namespace ballast {
 
 /// nx by ny tiles of this box in one: grains.count, box.length and box.width grow with them.
 Scene tiled_scene(const Scene& tile, int nx, int ny);
 
-/// Puts copies of the tile's grains and of what they remember into a state of the tiled box, whose
-/// walls stay as they are; of the walls between two copies nothing is left. Copies do not overlap,
-/// because each lay between its walls. Where those stood, a seam of a grain's width is loose.
-void place_copies(const Scene& scene, const Checkpoint& tile, MotionState& state,
-                  StepMemory& memory);
+/// Puts copies of the tile's grains into a state of the tiled box, whose walls stay as they are.
+/// Copies do not overlap, because each lay between its walls. Where those stood, a seam of a
+/// grain's width is loose.
+void place_copies(const Scene& scene, const MotionState& tile, MotionState& state);
 
 }  // namespace ballast

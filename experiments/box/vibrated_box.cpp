@@ -211,7 +211,7 @@ std::string packing_key(const Scene& scene) {
   const CorrectionSpec& c = scene.correction;
   text << ';' << c.enabled << ' ' << c.slop << ' ' << c.fraction << ' ' << c.sweeps << ' '
        << scene.detection.max_points;
-  if (d.tiles() > 1) text << ';' << d.tiles_x << ' ' << d.tiles_y;
+  if (d.tiles() > 1) text << "; tiles 2 " << d.tiles_x << ' ' << d.tiles_y;
   return content_key(text.str());
 }
 

@@ -23,7 +23,7 @@ struct BenchRequest {
   std::vector<int> threads{1};
   ScalingOptions scaling;
 
-  DepositedBox box() const { return deposited_box(scene, overrides, packing_cache); }
+  DepositedBox box() const { return deposited_box(bench_scene(scene, overrides), packing_cache); }
 };
 
 constexpr int most_count = 1'000'000'000;  // of steps, repetitions
@@ -64,12 +64,13 @@ Measurements bench_step(const BenchRequest& request) {
 }
 
 Measurements bench_scaling(const BenchRequest& request) {
-  const DepositedBox box = request.box();
-  const auto points = measure_scaling(box, request.scaling, [](const ScalingPoint& p) {
-    std::cout << p.nx << " x " << p.ny << " copies, " << p.grains << " grains, " << p.threads
+  const Scene tile = bench_scene(request.scene, request.overrides);
+  const auto said = [](const ScalingPoint& p) {
+    std::cout << p.nx << " x " << p.ny << " tiles, " << p.grains << " grains, " << p.threads
               << " threads: " << 1e-3 * p.value("step") << " us a grain and step, "
               << p.value("memory") << " B a grain" << std::endl;
-  });
+  };
+  const auto points = measure_scaling(tile, request.packing_cache, request.scaling, said);
   Measurements measurements;
   for (const ScalingPoint& p : points)
     measurements.insert(measurements.end(), p.measured.begin(), p.measured.end());
@@ -122,10 +123,10 @@ Command scaling_command() {
   scaling.grains = {1000, 10000, 100000};
   constexpr int most_grains = most_count / 10;
   return measuring(
-      "scaling", "Cost per grain of growing packings: copies of the deposited one side by side",
-      request, bench_scaling,
+      "scaling", "Cost per grain of growing boxes of one shape, settled from tiles", request,
+      bench_scaling,
       {{"--grains", &scaling.grains,
-        "Grains, separated by commas: each the nearest number of copies", between(1, most_grains)},
+        "Grains, separated by commas: each the nearest number of tiles", between(1, most_grains)},
        {"--threads", &scaling.threads, "Threads of the solver, separated by commas",
         between(1, 256)},
        {"--steps", &scaling.steps, "Measured steps", between(1, most_count)},

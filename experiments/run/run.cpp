@@ -31,9 +31,7 @@ bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manife
   if (scene.grains) {
     const Rain rain = make_rain(scene);
     Packing packing;
-    double deposit_seconds = 0.0;
-    if (!take_packing(scene, rain, order, packing, deposit_seconds)) return false;
-    if (deposit_seconds > 0.0) manifest.summary("deposit_seconds", deposit_seconds);
+    if (!take_packing(scene, rain, order, packing)) return false;
     run.system = drive_system(scene, rain, packing, run.state);
     run.memory = std::move(packing.memory);
     run.control_volume = box_control_volume(scene, packing.deposit.top);
@@ -89,8 +87,7 @@ class Run {
       if (!scene_.grains)
         throw Error(options_.scene + ": --deposit-only: has no [grains] to deposit");
       Packing packing;
-      double seconds = 0.0;
-      if (!take_packing(scene_, make_rain(scene_), packing_order(), packing, seconds))
+      if (!take_packing(scene_, make_rain(scene_), packing_order(), packing))
         end.code = why_to_stop();
     } else if (!open_folder()) {
       end.was_finished = true;

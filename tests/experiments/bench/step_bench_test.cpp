@@ -64,15 +64,17 @@ TEST_CASE("Every kernel does what it is timed for, again and again, and is found
   CHECK_THROWS_WITH(run_kernels(kernels, options), Catch::Contains("no such kernel"));
 }
 
-TEST_CASE("Scaling measures each packing in its own process") {
+TEST_CASE("Scaling deposits boxes of tiles, and measures each in its own process") {
   CHECK(tiles_for(1000, 1200) == std::pair(1, 1));
   CHECK(tiles_for(10000, 1200) == std::pair(3, 3));
   CHECK(tiles_for(100000, 1200) == std::pair(9, 9));
+  const TemporaryFolder cache;
   ScalingOptions options;
   options.grains = {12, 48};
   options.warm_up = options.steps = 2;
   int heard = 0;
-  const auto points = measure_scaling(tiny_box(), options, [&](const ScalingPoint&) { ++heard; });
+  const auto points = measure_scaling(tiny_box().scene, cache.path(), options,
+                                      [&](const ScalingPoint&) { ++heard; });
   REQUIRE(points.size() == 2);
   CHECK(heard == 2);
   CHECK(points[0].grains == 12.0);
@@ -86,38 +88,18 @@ TEST_CASE("Scaling measures each packing in its own process") {
   }
 }
 
-TEST_CASE("Copies side by side are the packing again and again") {
-  const DepositedBox& box = tiny_box();
-  PreparedRun one = tiled_start(box, 1, 1), six = tiled_start(box, 3, 2);
-  REQUIRE(six.system.grain_count == 6 * 12);
-  REQUIRE(six.state.pose.size() == six.system.bodies.size());
-  CHECK(six.system.first_driven_wall() == -1);
-  for (size_t c = 1; c < six.memory.contacts.size(); ++c) {
-    const ContactPoint &p = six.memory.contacts[c - 1], &q = six.memory.contacts[c];
-    CHECK(std::tuple(p.body_a, p.body_b, p.feature) < std::tuple(q.body_a, q.body_b, q.feature));
-  }
-  // walls between the copies are gone, and with them their contacts alone
-  size_t inner = 0;
-  for (const ContactPoint& c : one.memory.contacts) {
-    const int wall = c.body_a - 12;
-    if (wall == wall_x_min || wall == wall_x_max)
-      inner += 2 * 2;  // on each side 2 of 3 columns, 2 rows
-    if (wall == wall_y_min || wall == wall_y_max) inner += 3;
-  }
-  CHECK(six.memory.contacts.size() == 6 * one.memory.contacts.size() - inner);
-  const auto deepest = [&](PreparedRun& start) {
-    TimeStepper stepper(start.system, box.scene, -1);
-    double depth = 0.0;
-    for (int k = 0; k < 5; ++k)
-      depth = std::max(depth, stepper.step(start.state, start.memory).penetration_max);
-    return depth;
-  };
-  CHECK(deepest(six) <= deepest(one) + 1e-5);  // no copy lies in another
+TEST_CASE("A settled box rests behind walls that stand still") {
+  PreparedRun start = settled_start(tiny_box());
+  CHECK(start.system.first_driven_wall() == -1);
+  CHECK(start.memory.contacts.size() == start.memory.impulses.size());
+  TimeStepper stepper(start.system, tiny_box().scene, -1);
+  for (int k = 0; k < 5; ++k) stepper.step(start.state, start.memory);
+  const DepositSpec& deposit = tiny_box().scene.deposit;
+  CHECK(grain_rms_velocity(start.system, start.state) < 10 * deposit.rest_velocity);
 }
 
 TEST_CASE("A scene without grains has no packing to measure") {
-  const TemporaryFolder folder;
-  CHECK_THROWS_WITH(deposited_box("sliding_cube", {}, folder.path()),
+  CHECK_THROWS_WITH(bench_scene("sliding_cube", {}),
                     "sliding_cube: has no grains: a bench needs a deposited packing");
 }
 

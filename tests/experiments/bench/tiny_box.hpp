@@ -28,8 +28,9 @@ inline const DepositedBox& tiny_box() {
   static const DepositedBox box = [] {
     const TemporaryFolder folder;
     const Silence silence;
-    deposited_box("vibrated_box_small", tiny, folder.path());
-    return deposited_box("vibrated_box_small", tiny, folder.path());  // from the cache
+    const Scene scene = bench_scene("vibrated_box_small", tiny);
+    deposited_box(scene, folder.path());
+    return deposited_box(scene, folder.path());  // from the cache
   }();
   return box;
 }
