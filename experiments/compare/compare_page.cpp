@@ -159,23 +159,6 @@ std::string history_text(const CompareRow& row, size_t limit) {
   return text;
 }
 
-/// The cells of a column as one text: a browser takes no time to read what is not asked. Each cell
-/// ends with "delete" (0x7f); nothing says the same as the cell before, a blank that it is empty.
-class ColumnText {
- public:
-  void add(std::string cell) {
-    replace_all(cell, "\x7f", " ");
-    if (cell.empty()) cell = " ";
-    if (cell != last_) text_ += cell;
-    text_ += '\x7f';
-    last_ = std::move(cell);
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_, last_;
-};
-
 /// A backend's summary under way.
 struct Tally {
   BackendSummary summary;
@@ -208,19 +191,22 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
                {"shift", summary_shift},
                {"again", again(data, rows[0])}};
   const std::vector<std::string> names = compare_columns();
-  std::vector<ColumnText> columns(names.size());
-  ColumnText words, can_view, histories;
+  // A column is one text, a line a cell: a browser takes no time to read what is not asked.
+  std::vector<std::string> columns(names.size());
+  std::string words, can_view, histories;
+  const auto add = [](std::string_view cell, std::string& column) {
+    column += one_line(cell, ' ') + '\n';
+  };
   const size_t points = std::clamp<size_t>(most_points / rows.size(), 8, 100);
   for (const CompareRow& row : rows) {
     const std::vector<std::string> cells = cells_of(row);
-    for (size_t c = 0; c < names.size(); ++c) columns[c].add(cells[c]);
-    words.add(shell_word(row.word.empty() ? row.case_name : row.word));
-    can_view.add(row.can_view ? "yes" : "");
-    histories.add(row.history.size() > 1 ? history_text(row, points) : "");
+    for (size_t c = 0; c < names.size(); ++c) add(cells[c], columns[c]);
+    add(shell_word(row.word.empty() ? row.case_name : row.word), words);
+    add(row.can_view ? "yes" : "", can_view);
+    add(row.history.size() > 1 ? history_text(row, points) : "", histories);
   }
-  for (size_t c = 0; c < names.size(); ++c) json["columns"][names[c]] = columns[c].text();
-  json["more"] = {
-      {"word", words.text()}, {"can_view", can_view.text()}, {"history", histories.text()}};
+  for (size_t c = 0; c < names.size(); ++c) json["columns"][names[c]] = columns[c];
+  json["more"] = {{"word", words}, {"can_view", can_view}, {"history", histories}};
   page::Answers answers{.are_given = true};
   answers.data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (const char* name : modules) answers.modules.push_back(comparison_file(name));

@@ -49,16 +49,6 @@ std::string wrapped(const std::string& words, const char* open, const char* clos
          words.substr(last + 1);
 }
 
-/// Runs of backticks in `text` are shorter than this.
-std::string fence_for(const std::string& text) {
-  size_t longest = 0, run = 0;
-  for (const char c : text) {
-    run = c == '`' ? run + 1 : 0;
-    longest = std::max(longest, run);
-  }
-  return std::string(longest + 1, '`');
-}
-
 std::string span_text(const Span& span) {
   std::string words;
   if (span.styles & code) {
@@ -66,9 +56,8 @@ std::string span_text(const Span& span) {
     std::replace(clean.begin(), clean.end(), '\n', ' ');
     // in a table a bar ends the cell, even in code
     replace_all(clean, "|", "\\|");
-    const std::string fence = fence_for(clean);
-    const char* space = fence.size() > 1 ? " " : "";
-    words = fence + space + clean + space + fence;
+    std::ranges::replace(clean, '`', '\'');
+    words = '`' + clean + '`';
   } else {
     words = escaped_markdown(span.text);
   }

@@ -171,15 +171,6 @@ std::string text_at(const RunData& data, const char* where) {
   return readable(data.manifest()[at]);
 }
 
-/// The texts in a list of the manifest; empty when there is no such list.
-std::vector<std::string> list_at(const RunData& data, const char* name) {
-  std::vector<std::string> list;
-  const auto found = data.manifest().find(name);
-  if (found != data.manifest().end() && found->is_array())
-    for (const Json& entry : *found) list.push_back(readable(entry));
-  return list;
-}
-
 /// The scene's title, else its name, else the folder's.
 std::string name_of_run(const RunData& data) {
   if (data.scene && !data.scene->title.empty()) return data.scene->title;
@@ -235,31 +226,18 @@ page::Table periods_table(const RunSummary& summary) {
 }
 
 page::Table provenance_table(const RunData& data) {
-  constexpr std::pair<const char*, const char*> facts[] = {
-      {"ballast", "/ballast/version"},
-      {"commit", "/ballast/commit"},
-      {"compiler", "/ballast/compiler"},
-      {"build", "/ballast/build_type"},
-      {"flags", "/ballast/flags"},
-      {"libraries", "/ballast/libraries"},
-      {"processor", "/machine/cpu"},
-      {"cores", "/machine/cores"},
-      {"memory (GB)", "/machine/memory_GB"},
-      {"load average at the start (1, 5, 15 min)", "/machine/load_average"},
-      {"environment", "/machine/environment"},
-      {"started", "/started"},
-      {"key", "/key"}};
   page::Table table{.is_facts = true};
-  for (const auto& [what, where] : facts) {
-    std::string value = text_at(data, where);
-    if (value.empty()) continue;
-    const bool is_commit = std::string_view(what) == "commit";
-    if (is_commit && text_at(data, "/ballast/modified") == "true")
-      value += ", with changes that are not committed";
-    table.rows.push_back({what, value});
+  const auto add = [&](std::string what, const Json& value) {
+    std::ranges::replace(what, '_', ' ');
+    const std::string words = value.is_null() ? "" : readable(value);
+    if (!words.empty()) table.rows.push_back({what, words});
+  };
+  for (const char* group : {"ballast", "machine"}) {
+    const Json facts = data.manifest().value(group, Json::object());
+    for (const auto& [name, value] : facts.items()) add(name, value);
   }
-  for (const std::string& resumed : list_at(data, "resumed"))
-    table.rows.push_back({"resumed", resumed});
+  for (const char* name : {"started", "key", "resumed"})
+    add(name, data.manifest().value(name, Json()));
   return table;
 }
 
@@ -342,8 +320,8 @@ void write_report(const std::filesystem::path& folder) {
   page.add(std::move(diagnostics));
   page.add({"cost-table", "Cost", {cost_table(summary)}});
   std::string list;
-  for (const std::string& set : list_at(data, "overrides"))
-    list += (list.empty() ? "" : "\n") + set;
+  const Json overrides = data.manifest().value("overrides", Json::array());
+  for (const Json& set : overrides) list += (list.empty() ? "" : "\n") + readable(set);
   if (!list.empty()) parameters.add("Settings other than the scene’s (--set):");
   parameters.add(page::Listing{list});
   parameters.add(page::Listing{data.scene_text, "The whole scene (scene.toml)"});

@@ -30,7 +30,7 @@ ProblemAssembler::ProblemAssembler(const MechanicalSystem& system)
   for (const RigidBody& body : system.bodies) {
     const bool is_like_last = !sides_.empty() && *sides_.back().freedom == body.freedom;
     sides_.push_back({is_like_last ? sides_.back().freedom : &body.freedom,
-                      body.is_wall() ? body.wall.friction : -1.0, body.material >= 0});
+                      body.is_wall() ? body.wall.friction : -1.0, body.material});
     if (body.imposed) some_motion_is_imposed_ = true;
     const int dofs = body.freedom.count();
     if (dofs == 0) {
@@ -108,10 +108,13 @@ void ProblemAssembler::write_contact(const ContactPoint& contact, const Mat3& fr
   }
 }
 
-/// What MechanicalSystem::law says, quicker.
+/// That of the two materials, else with the wall's friction, else the scene's.
 PairLaw ProblemAssembler::law_of(const ContactPoint& contact) const {
   const Side &a = sides_[contact.body_a], &b = sides_[contact.body_b];
-  if (a.has_material && b.has_material) return system_.law(contact.body_a, contact.body_b);
+  if (a.material >= 0 && b.material >= 0) {
+    const auto law = system_.material_laws.find(std::minmax(a.material, b.material));
+    if (law != system_.material_laws.end()) return law->second;
+  }
   return {a.wall_friction >= 0.0   ? a.wall_friction
           : b.wall_friction >= 0.0 ? b.wall_friction
                                    : system_.friction,

@@ -98,7 +98,7 @@ class ProblemAssembler {
   struct Side {
     const Freedom* freedom;  // the same object for all bodies whose freedom is the same
     double wall_friction;    // below 0: no wall
-    bool has_material;
+    int material;            // its number; -1: none
   };
   PairLaw law_of(const ContactPoint& contact) const;
   std::vector<Side> sides_;

@@ -47,15 +47,6 @@ void follow(const RigidBody& body, double time, Pose& pose, Vec3& velocity, Vec3
   spin = pose.rotation.conjugate() * motion.spin_at(time);
 }
 
-PairLaw MechanicalSystem::law(int a, int b) const {
-  const RigidBody &first = bodies[a], &second = bodies[b];
-  const auto at = material_laws.find(std::minmax(first.material, second.material));
-  if (at != material_laws.end()) return at->second;
-  if (first.is_wall()) return {first.wall.friction, restitution};
-  if (second.is_wall()) return {second.wall.friction, restitution};
-  return {friction, restitution};
-}
-
 double MechanicalSystem::highest_restitution() const {
   double highest = restitution;
   for (const auto& [materials, law] : material_laws) highest = std::max(highest, law.restitution);
@@ -161,20 +152,13 @@ ControlVolume::ControlVolume(const Vec3& lo, const Vec3& hi) : lo_(lo), hi_(hi) 
 
 double ControlVolume::solid_fraction(const MechanicalSystem& system, const MotionState& state,
                                      WorkerTeam* team) {
-  // Grains that stand on the box's faces take nearly all the time and lie side by side: small parts
-  // share them out.
-  constexpr int parts_of_thread = 8;
-  const int parts = size_of(team) == 1 ? 1 : parts_of_thread * size_of(team);
-  clippers_.resize(std::max(clippers_.size(), static_cast<size_t>(parts)));
   inside_.resize(static_cast<size_t>(system.grain_count));
-  run_parts(team, parts, [&](int part) {
-    const long grains = system.grain_count, begin = grains * part / parts,
-               end = grains * (part + 1) / parts;
-    for (long b = begin; b < end; ++b) {
-      const RigidBody& body = system.bodies[b];
-      inside_[b] =
-          clippers_[part].volume(*body.shape.polyhedron, state.pose[b], lo_, hi_, body.volume);
-    }
+  // Grains that stand on the box's faces take nearly all the time and lie side by side: few
+  // together share them out.
+  run_each(team, system.grain_count, /*together=*/64, [&](int b) {
+    thread_local BoxClipper clipper;
+    const RigidBody& body = system.bodies[b];
+    inside_[b] = clipper.volume(*body.shape.polyhedron, state.pose[b], lo_, hi_, body.volume);
   });
   // Grains' volumes within the box over the box's own; where grains overlap both are counted. One
   // after the other, whoever clipped them: the same bits.

@@ -69,8 +69,6 @@ struct MechanicalSystem {
   Period period;
   std::map<std::pair<int, int>, PairLaw> material_laws;  ///< the smaller number first
 
-  /// That of the two materials, else with the wall's friction, else the scene's.
-  PairLaw law(int a, int b) const;
   double highest_restitution() const;  ///< 0: nothing rebounds anywhere
   double mass_of_grains() const;
   int first_driven_wall() const;  ///< -1 when there is none
@@ -111,8 +109,7 @@ class ControlVolume {
 
  private:
   Vec3 lo_, hi_;
-  std::vector<BoxClipper> clippers_;  // one for each part of the work
-  std::vector<double> inside_;        // of each grain [m^3]
+  std::vector<double> inside_;  // of each grain [m^3]
 };
 
 }  // namespace ballast

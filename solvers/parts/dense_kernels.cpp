@@ -1,6 +1,5 @@
 #include "solvers/parts/dense_kernels.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cstdint>
 
@@ -58,18 +57,11 @@ BALLAST_INLINE void subtract_tile(int rows, int depth, const Rows<bytes>* packed
     for (int j = 0; j < N; ++j)
       for (int i = 0; i < Rows<bytes>::count; ++i)
         sum[j].part[i] += packed[p].part[i] * b[j * stride_b + p];
-  if (rows == tile_rows) {
-    for (int j = 0; j < N; ++j, c += stride_c) {
-      Rows<bytes> there;
-      there.load(c);
-      for (int i = 0; i < Rows<bytes>::count; ++i) there.part[i] -= sum[j].part[i];
-      there.store(c);
-    }
-  } else {
-    double all[N][tile_rows];
-    for (int j = 0; j < N; ++j) sum[j].store(all[j]);
-    for (int j = 0; j < N; ++j, c += stride_c)
-      for (int i = 0; i < rows; ++i) c[i] -= all[j][i];
+  for (int j = 0; j < N; ++j, c += stride_c) {
+    Rows<bytes> there;
+    there.load(c, rows);
+    for (int i = 0; i < Rows<bytes>::count; ++i) there.part[i] -= sum[j].part[i];
+    there.store(c, rows);
   }
 }
 
@@ -176,10 +168,6 @@ std::vector<DenseKernels> dense_kernels() {
 #endif
   sets.push_back({"any", product_any, solve_any});
   return sets;
-}
-
-Eigen::VectorXd pivoted_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
-  return a.partialPivLu().solve(b);
 }
 
 void subtract_product(int m, int n, int k, const double* a, int stride_a, const double* b,

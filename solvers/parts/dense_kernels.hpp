@@ -5,7 +5,6 @@
 // its bits depend on the processor. Here every entry is one sum in one order, without fused
 // multiply-add: the same bits on every instruction set.
 
-#include <Eigen/Core>
 #include <vector>
 
 namespace ballast {
@@ -21,9 +20,6 @@ void solve_unit_lower(int m, int n, const double* l, int stride_l, double* b, in
 /// The first `columns` columns of A, rows x columns with columns <= rows, factored in place: U on
 /// and above the diagonal, the unit lower L below it. Pivots are not looked at.
 void factor_columns(double* a, int stride, int rows, int columns);
-
-/// x with A x = b, by Eigen's LU with exchanged rows. NaN or infinity where A is singular.
-Eigen::VectorXd pivoted_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 /// The inner loops for one instruction set. All give the same bits.
 struct DenseKernels {

@@ -1,6 +1,6 @@
 #include "solvers/parts/newton_system.hpp"
 
-#include "solvers/parts/dense_kernels.hpp"
+#include <Eigen/LU>
 
 namespace ballast {
 namespace {
@@ -62,7 +62,7 @@ bool NewtonSystem::solve_dense(const FrictionProblem& problem,
           matrix.col(place_[w.col()]).segment(at, rows) += by_u.col(i) * w.value();
     matrix.block(at, at, rows, rows) += b_[c].topLeftCorner(rows, rows);
   }
-  const Eigen::VectorXd solution = pivoted_solution(matrix, right);
+  const Eigen::VectorXd solution = matrix.partialPivLu().solve(right);  // NaN where singular
   if (!solution.allFinite()) return false;
   for (int row = 0; row < problem.row_count(); ++row)
     if (place_[row] >= 0) dr[row] = solution[place_[row]];

@@ -44,12 +44,12 @@ function case_view() {
 }
 
 function family_view() {
-  const families = grouped(rows.filter(first_repeat), "family");
+  const families = Map.groupBy(rows.filter(first_repeat), (row) => row.family);
   const large = [...families.keys()].filter((family) =>
     families.get(family).some((row) => row.case !== families.get(family)[0].case));
   if (!large.length) return [];
   const [family, line] = chooser("family", "family", large), mine = families.get(family);
-  const cases = [...grouped(mine, "case").values()];
+  const cases = [...Map.groupBy(mine, (row) => row.case).values()];
   const curve_of = (solver) => {
     const histories = cases.map((of_case) => longest_history(of_case, solver)).filter(Boolean)
       .map(history_of);

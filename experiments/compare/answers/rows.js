@@ -14,16 +14,7 @@ class Row {
   get cells() { return column_names.map((name) => this[name + "_text"]); }
 }
 
-/// The cells of a column's text (ColumnText of compare_page.cpp).
-function cells_of_text(text) {
-  const cells = text.split("\x7f");
-  cells.pop();
-  cells.forEach((cell, k) => {
-    if (cell === "") cells[k] = cells[k - 1];
-    else if (cell === " ") cells[k] = "";
-  });
-  return cells;
-}
+const cells_of_text = (text) => text.split("\n").slice(0, -1);
 
 /// Gives rows the cells of `text` as row[name + "_text"], and as row[name] what `read` makes of it.
 function add_column(name, text, read) {
@@ -84,14 +75,4 @@ function history_of(row) {
   if (row.reached) return row.reached;
   const flat = row.history ? row.history.split(" ").map(Number) : [];
   return row.reached = flat.flatMap((x, k) => (k % 2 ? [] : [{ x, y: flat[k + 1], row }]));
-}
-
-/// Rows by the value of a column, in the order of their first ones.
-function grouped(list, column) {
-  const groups = new Map();
-  for (const row of list) {
-    if (!groups.has(row[column])) groups.set(row[column], []);
-    groups.get(row[column]).push(row);
-  }
-  return groups;
 }

@@ -20,7 +20,7 @@ function selection() {
   const mine = rows.filter((row) => chosen.has(row) && row.start === chosen.start &&
                                     row.tolerance_text === chosen.tolerance);
   const solvers = all_solvers.filter((name) => mine.some((row) => row.solver === name));
-  const cases = [...grouped(mine, "case")].map(([name, of_case]) => {
+  const cases = [...Map.groupBy(mine, (row) => row.case)].map(([name, of_case]) => {
     const cells = solvers.map((s) => cell_of(of_case.filter((row) => row.solver === s)));
     return { name, cells, row: of_case[0], fastest: Math.min(...cells.map((c) => c.median)) };
   });
