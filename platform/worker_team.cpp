@@ -130,8 +130,10 @@ void WorkerTeam::work(int member, Marked seen) {
 
 void TeamPace::took(double seconds, double amount) {
   if (seconds > long_work) {
+    // As after a trial that the whole team has won: shorter rounds between long ones begin none.
     is_whole_ = true;
-    round_ = 0;
+    whole_ = 0.0;
+    round_ = 2 * trial;
     return;
   }
   const double unit = seconds / amount;

@@ -158,6 +158,14 @@ TEST_CASE("slow first rounds, in which caches fill, are no trial") {
   CHECK(whole == 96);
 }
 
+TEST_CASE("short rounds between long ones are no trial") {
+  TeamPace pace;
+  for (int round = 0; round < 1000; ++round) {
+    if (!pace.is_whole()) FAIL("round " << round);
+    pace.took(round % 8 == 7 ? 0.03 : 0.01);
+  }
+}
+
 TEST_CASE("what became faster in company is done in company after the next trial") {
   TeamPace pace;
   WorkerTeam team;
