@@ -118,12 +118,16 @@ void run_parts(WorkerTeam* team, int parts, const Task& task) {
 }
 
 /// task(begin, end) for ranges of `together` numbers, the last one shorter, that cover [0, count).
-/// They are the same whoever works.
-template <typename Task>
-void run_ranges(WorkerTeam* team, int count, int together, const Task& task) {
-  run_parts(team, (count + together - 1) / together, [&](int part) {
-    const int begin = part * together;
-    task(begin, begin + std::min(together, count - begin));
+/// They are the same whoever works. Beside them, and begun first, is done each of `others`.
+template <typename Task, typename... Others>
+void run_ranges(WorkerTeam* team, int count, int together, const Task& task,
+                const Others&... others) {
+  constexpr int first = sizeof...(others);
+  run_parts(team, first + (count + together - 1) / together, [&](int part) {
+    [[maybe_unused]] int other = 0;
+    ((part == other++ ? others() : void()), ...);
+    const int begin = (part - first) * together;
+    if (part >= first) task(begin, begin + std::min(together, count - begin));
   });
 }
 

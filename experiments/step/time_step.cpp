@@ -123,15 +123,12 @@ void TimeStepper::begin_problem(const MotionState& state, const StepMemory& memo
   assembler_.pack(state, v_before_);
   for (Eigen::VectorXd* unknowns : {&v_free(), &force_, &gyroscopic_})
     unknowns->resize(v_before_.size());
-  constexpr int together = 256;
-  const int bodies = static_cast<int>(system_.bodies.size());
-  run_parts(team_.get(), 2 + (bodies + together - 1) / together, [&](int part) {
-    if (part == 0) return carry(memory);
-    if (part == 1) return assembler_.lay_out(memory.contacts);
-    const int begin = (part - 2) * together;
-    for (int b = begin; b < std::min(begin + together, bodies); ++b)
-      free_motion(b, state, mid_time);
-  });
+  const auto move = [&](int begin, int end) {
+    for (int b = begin; b < end; ++b) free_motion(b, state, mid_time);
+  };
+  run_ranges(
+      team_.get(), static_cast<int>(system_.bodies.size()), /*together=*/256, move,
+      [&] { carry(memory); }, [&] { assembler_.lay_out(memory.contacts); });
 }
 
 void require_finite(const SolverRun& run, const std::string& solver, double time) {

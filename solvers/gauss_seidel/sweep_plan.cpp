@@ -22,15 +22,12 @@ void sort_by_key(const std::vector<int>& keys, int count, std::vector<int>& begi
 }  // namespace
 
 void SweepPlan::prepare(const FrictionProblem& problem) {
-  constexpr int together = 1024;
-  const int contacts = problem.contact_count();
-  opening_.resize(contacts);
-  // One part finds the slabs, which is a walk from body to body; the others the openings.
-  run_parts(team_, 1 + (contacts + together - 1) / together, [&](int part) {
-    if (part == 0) return find_slabs(problem.dynamics);
-    const int begin = (part - 1) * together;
-    find_openings(problem, begin, std::min(begin + together, contacts));
-  });
+  opening_.resize(problem.contact_count());
+  // To find the slabs is a walk from body to body.
+  run_ranges(
+      team_, problem.contact_count(), /*together=*/1024,
+      [&](int begin, int end) { find_openings(problem, begin, end); },
+      [&] { find_slabs(problem.dynamics); });
   order(problem);
 }
 

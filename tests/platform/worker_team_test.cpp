@@ -34,6 +34,26 @@ TEST_CASE("every part is done once in every task, by whatever team") {
   CHECK(visits(nullptr, 17, 3) == std::vector<int>(17, 3));
 }
 
+TEST_CASE("ranges cover their numbers once, and other work is done beside them") {
+  for (const int threads : {0, 1, 3}) {
+    WorkerTeam team;
+    team.resize(threads);
+    WorkerTeam* const some = threads == 0 ? nullptr : &team;
+    for (const int count : {0, 1, 7, 8, 9}) {
+      std::vector<int> visits(static_cast<size_t>(count));
+      int first = 0, second = 0;
+      run_ranges(
+          some, count, 4,
+          [&](int begin, int end) {
+            for (int i = begin; i < end; ++i) ++visits[static_cast<size_t>(i)];
+          },
+          [&] { ++first; }, [&] { ++second; });
+      CHECK(visits == std::vector<int>(visits.size(), 1));
+      CHECK((first == 1 && second == 1));
+    }
+  }
+}
+
 TEST_CASE("a task is over when run() returns: what it wrote can be read") {
   WorkerTeam team;
   team.resize(3);
