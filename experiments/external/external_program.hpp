@@ -66,7 +66,7 @@ struct ExternalLimits {
 };
 
 /// "name=command", or the name of a TOML file with a list of them; each name once. Throws
-/// std::invalid_argument, SceneFileError.
+/// std::invalid_argument, Error.
 std::vector<ExternalCommand> external_commands(const std::vector<std::string>& words);
 
 /// Key of the command and of the files that it names: another one after an edit of the script.

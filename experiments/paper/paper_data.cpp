@@ -162,8 +162,7 @@ std::vector<PlannedRun> read_campaign(const CampaignSettings& settings) {
     if (!settings.scene.empty() && run.scene == "vibrated_box") run.scene = settings.scene;
     run.overrides.insert(run.overrides.end(), settings.overrides.begin(), settings.overrides.end());
     run = planned_run(run.name, run.scene, run.overrides);
-    if (run.packing.empty())
-      throw SceneFileError(run.scene + ": has no [grains], expected a vibrated box");
+    if (run.packing.empty()) throw Error(run.scene + ": has no [grains], expected a vibrated box");
   }
   return plan.runs;
 }

@@ -30,7 +30,7 @@ struct CampaignSettings {
 /// The text of campaign.toml, built into the program.
 std::string campaign_plan();
 /// Stage by stage, the most important first; equal runs of several stages have one key. Throws
-/// SceneFileError naming plan, run, key and value.
+/// Error naming plan, run, key and value.
 std::vector<PlannedRun> read_campaign(const CampaignSettings& settings);
 /// The stage of a run: its name to the first of "-.".
 std::string stage_of(const PlannedRun& run);

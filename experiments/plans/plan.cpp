@@ -7,6 +7,7 @@
 
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/run/run.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "problems/scene/toml_reader.hpp"
 
@@ -36,7 +37,7 @@ std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern) {
   std::vector<PlannedRun> runs;
   for (const PlannedRun& run : plan.runs)
     if (pattern.empty() || fnmatch(pattern.c_str(), run.name.c_str(), 0) == 0) runs.push_back(run);
-  if (runs.empty()) throw SceneFileError("plan " + plan.name + ": no run is named like " + pattern);
+  if (runs.empty()) throw Error("plan " + plan.name + ": no run is named like " + pattern);
   return runs;
 }
 
@@ -186,27 +187,27 @@ void expand(const Grid& grid, const std::function<void(PlannedRun)>& add) {
 void validate(Plan& plan, const std::string& origin) {
   const auto check_name = [&](const std::string& what, const std::string& name) {
     if (!is_plain(name, "_-.=") || name[0] == '.' || name[0] == '-')
-      throw SceneFileError(origin + ": " + what + " = \"" + name +
-                           "\": expected letters, digits, _, -, . and =");
+      throw Error(origin + ": " + what + " = \"" + name +
+                  "\": expected letters, digits, _, -, . and =");
   };
   check_name("name", plan.name);
   std::set<std::string> names;
   for (PlannedRun& run : plan.runs) {
     check_name("run.name", run.name);
     if (!names.insert(run.name).second)
-      throw SceneFileError(origin + ": run.name = \"" + run.name +
-                           "\": stands twice, expected another name for each run");
+      throw Error(origin + ": run.name = \"" + run.name +
+                  "\": stands twice, expected another name for each run");
     try {
       run = planned_run(run.name, run.scene, run.overrides);
-    } catch (const SceneFileError& error) {
-      throw SceneFileError(origin + ": run " + run.name + ": " + error.what());
+    } catch (const Error& error) {
+      throw Error(origin + ": run " + run.name + ": " + error.what());
     }
   }
 }
 
 }  // namespace
 
-Plan read_plan(const fs::path& file) { return plan_of(read_toml(file), file); }
+Plan read_plan(const fs::path& file) { return plan_of(read_whole_file(file), file); }
 
 Plan plan_of(const std::string& toml, const fs::path& file) {
   const toml::table raw = parse_toml(toml, file);
@@ -224,11 +225,10 @@ Plan plan_of(const std::string& toml, const fs::path& file) {
     text += run.name.size() + run.scene.size();
     for (const std::string& set : run.overrides) text += set.size();
     if (text > most_text || plan.runs.size() == most_runs)
-      throw SceneFileError(file.string() + ": more than " +
-                           (text > most_text
-                                ? std::to_string(most_text >> 20) + " MB of names and overrides"
-                                : std::to_string(most_runs) + " runs") +
-                           ": expected several smaller plans");
+      throw Error(file.string() + ": more than " +
+                  (text > most_text ? std::to_string(most_text >> 20) + " MB of names and overrides"
+                                    : std::to_string(most_runs) + " runs") +
+                  ": expected several smaller plans");
     plan.runs.push_back(std::move(run));
   };
   // Single runs as they stand, then the members of each grid.
@@ -246,7 +246,7 @@ Plan plan_of(const std::string& toml, const fs::path& file) {
     expand(grid, add);
   }
   if (plan.runs.empty())
-    throw SceneFileError(file.string() + ": no runs in it, expected [[run]] or [[grid]]");
+    throw Error(file.string() + ": no runs in it, expected [[run]] or [[grid]]");
   validate(plan, file.string());
   return plan;
 }

@@ -21,7 +21,7 @@ struct PlannedRun {
   double packing_work = 0.0;  ///< the same of the deposit, as far as that can be known beforehand
 };
 
-/// Reads the scene. Throws SceneFileError.
+/// Reads the scene. Throws Error.
 PlannedRun planned_run(const std::string& name, const std::string& scene,
                        const std::vector<std::string>& overrides);
 
@@ -30,14 +30,14 @@ struct Plan {
   std::vector<PlannedRun> runs;
 };
 
-/// Reads a plan file (docs/manual/plans.md). Throws SceneFileError naming file, key and value: also
+/// Reads a plan file (docs/manual/plans.md). Throws Error naming file, key and value: also
 /// for a run that is not a valid scene.
 Plan read_plan(const std::filesystem::path& file);
 /// The same of a text that was read.
 Plan plan_of(const std::string& toml, const std::filesystem::path& file);
 
 /// The runs of the plan that a shell's pattern names; all of them where it is empty. Throws
-/// SceneFileError when there are none.
+/// Error when there are none.
 std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern);
 
 }  // namespace ballast

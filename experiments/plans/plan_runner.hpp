@@ -72,13 +72,13 @@ struct PlanOptions {
 ///
 /// ok: all are finished. failure: some failed, or SIGINT or SIGTERM: all are stopped with
 /// checkpoints. time_limit: as that, after max_seconds. The same call goes on. Killed (-9), its
-/// children die with it, and the same call goes on at the last checkpoints. Throws SceneFileError,
-/// and Error when another plan is run in the folder or it cannot be written.
+/// children die with it, and the same call goes on at the last checkpoints. Throws Error,
+/// also where another plan is run in the folder.
 ExitCode run_plan(const Plan& plan, const PlanOptions& options);
 
 /// The tasks that are not finished, as lines for a shell: of `options` the results and the runs to
 /// do. Paths are absolute. Each line may be run again, and in any order: a run waits for its
-/// packing or deposits it. Makes the empty folders. Throws SceneFileError and Error.
+/// packing or deposits it. Makes the empty folders. Throws Error.
 std::vector<std::string> plan_commands(const Plan& plan, const PlanOptions& options);
 
 /// How far a plan is, on one line: "37 %  0 of 2 runs, 1 running". Runs that go on count by the

@@ -17,7 +17,7 @@ struct ReadShape : CompoundShape {  // where there are no parts the hull is the 
 };
 
 /// Reads `shape` and the keys of its kind, or the tables `part`. Mesh files are named from
-/// `folder`. Throws SceneFileError.
+/// `folder`. Throws Error.
 ReadShape read_shape(TomlTable& table, const std::filesystem::path& folder);
 
 /// "axis" and "angle_degrees" of a rotation.
@@ -26,7 +26,7 @@ Quat read_orientation(TomlTable table);
 /// A mesh file's name made absolute: from the scene's folder, not from where the program runs.
 std::string mesh_path(const std::filesystem::path& scene_folder, const std::string& name);
 
-/// Throws SceneFileError where the vector is zero.
+/// Throws Error where the vector is zero.
 void check_direction(const TomlTable& table, const char* key, const Vec3& v);
 
 }  // namespace ballast

@@ -17,12 +17,6 @@
 
 namespace ballast {
 
-/// what(): "file: key = value: what is wrong and what was expected".
-class SceneFileError : public Error {
- public:
-  using Error::Error;
-};
-
 /// f(t) = (f_max + f_min)/2 - (f_max - f_min)/2 sin(2 pi nu t): compressive force on a driven wall
 /// [N] (paper, Eq. 1).
 struct HarmonicLoad {

@@ -17,10 +17,10 @@ inline constexpr NumberRange friction_range{"a number from 0 to 1e4", 0.0, large
 
 /// Reads the walls, then the bodies, then the crowds into the scene, whose period is known. Names
 /// are unique among all; unnamed ones are called wall_0, body_0, crowd_0, ... Throws
-/// SceneFileError.
+/// Error.
 void read_bodies(TomlTable& root, const std::filesystem::path& folder, Scene& scene);
 
-/// Reads the laws between the materials of the bodies that were read. Throws SceneFileError.
+/// Reads the laws between the materials of the bodies that were read. Throws Error.
 void read_material_pairs(const std::vector<TomlTable>& tables, Scene& scene);
 
 }  // namespace ballast

@@ -230,7 +230,7 @@ void read_box_scene(TomlTable& root, Scene& scene, const fs::path& file) {
     root.fail("gravity",
               "grains are deposited along -z, expected magnitude > 0 and direction [0, 0, -1]");
   if (scene.period.repeats())
-    throw SceneFileError(file.string() + ": scene.period has no meaning with [grains], in a box");
+    throw Error(file.string() + ": scene.period has no meaning with [grains], in a box");
   scene.grains = read_grains(root.section("grains"), file.parent_path());
   read_deposit(root.section("deposit"), scene.deposit, *scene.grains);
   read_box(root.section("box"), scene.box, *scene.grains, scene.deposit);
@@ -243,9 +243,9 @@ void read_body_scene(TomlTable& root, Scene& scene, const fs::path& file) {
     if (root.has(key)) root.fail(key, "has no meaning without [grains]");
   read_bodies(root, file.parent_path(), scene);
   if (scene.walls.empty() && scene.bodies.empty())
-    throw SceneFileError(file.string() +
-                         ": nothing in it, expected [grains] with [box], or at least one [[body]], "
-                         "[[crowd]] or [[wall]]");
+    throw Error(file.string() +
+                ": nothing in it, expected [grains] with [box], or at least one [[body]], "
+                "[[crowd]] or [[wall]]");
 }
 
 Scene read(TomlTable& root, const fs::path& file) {

@@ -28,7 +28,7 @@ ResolvedScene resolve_scene(const std::filesystem::path& file,
 double scene_friction(const std::filesystem::path& file);
 
 /// A scene given by name ("vibrated_box") or path; names are looked up in the scene folder of the
-/// installation (see scene_folder()). Throws SceneFileError that lists what there is.
+/// installation (see scene_folder()). Throws Error that lists what there is.
 std::filesystem::path find_scene(const std::string& name_or_path);
 std::filesystem::path scene_folder();
 /// name and title of every scene in the folder, sorted. One that is no TOML is left out, and what

@@ -27,13 +27,13 @@ fs::path scene_folder() {
 std::vector<std::pair<std::string, std::string>> list_scenes(std::string* unreadable) {
   std::vector<std::pair<std::string, std::string>> scenes;
   const fs::path folder = scene_folder();
-  if (!is_folder(folder)) throw SceneFileError(folder.string() + ": no such folder of scenes");
+  if (!is_folder(folder)) throw Error(folder.string() + ": no such folder of scenes");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
     try {
       scenes.emplace_back(entry.path().stem().string(),
                           load_toml(entry.path())["scene"]["title"].value_or(std::string()));
-    } catch (const SceneFileError& error) {
+    } catch (const Error& error) {
       if (unreadable) add_to_list(*unreadable, error.what());
     }
   }
@@ -47,15 +47,14 @@ fs::path find_scene(const std::string& name_or_path) {
   const bool is_name =
       !name_or_path.empty() && !path.has_parent_path() && path.extension() != ".toml";
   if (is_there(path) && !is_folder(path))
-    throw SceneFileError(name_or_path + ": a pipe or a device, expected a scene file");
-  if (!is_name) throw SceneFileError(name_or_path + ": no such scene file");
+    throw Error(name_or_path + ": a pipe or a device, expected a scene file");
+  if (!is_name) throw Error(name_or_path + ": no such scene file");
   const fs::path named = scene_folder() / (name_or_path + ".toml");
   if (is_file(named)) return named;
   std::vector<std::string> there;
   for (const auto& [name, title] : list_scenes()) there.push_back(name);
-  throw SceneFileError(name_or_path + ": no scene of this name" +
-                       did_you_mean(name_or_path, there) + ", expected a file or one of " +
-                       joined(there));
+  throw Error(name_or_path + ": no scene of this name" + did_you_mean(name_or_path, there) +
+              ", expected a file or one of " + joined(there));
 }
 
 }  // namespace ballast

@@ -176,7 +176,7 @@ std::optional<long> line_too_deep(std::string_view text) {
 void apply(const std::filesystem::path& file, const std::string& text, toml::table& root) {
   const auto fail = [&](const std::string& what) {
     const std::string first_line = text.substr(0, text.find_first_of("\r\n"));
-    throw SceneFileError(file.string() + " (--set): " + first_line + ": " + what);
+    throw Error(file.string() + " (--set): " + first_line + ": " + what);
   };
   const size_t equals = text.find('=');
   if (equals == std::string::npos) fail("expected dotted.key=value");
@@ -235,7 +235,7 @@ void TomlTable::read(std::string_view key, ValuePlace place, const ValueRule& ru
     const std::string unit = *rule.unit ? std::string(" [") + rule.unit + "]" : "";
     const std::string expected = ", expected " + expected_text(*value, rule) + unit;
     if (!node && presence == Presence::required)
-      throw SceneFileError(place_of(table_) + ": " + full_key(key) + " is missing" + expected);
+      throw Error(place_of(table_) + ": " + full_key(key) + " is missing" + expected);
     const auto by_default = *value;
     const std::string wrong = node ? take(*node, rule, *value) : "";
     if (!wrong.empty()) fail(key, wrong + expected);
@@ -299,7 +299,7 @@ void TomlTable::fail(std::string_view key, const std::string& what) const {
   const toml::node* node = table_->get(key);
   std::string value = node ? " = " + toml_value_text(*node) : "";
   if (value.size() > shown_value) value = value.substr(0, shown_value) + "...";
-  throw SceneFileError(place_of(node) + ": " + full_key(key) + value + ": " + what);
+  throw Error(place_of(node) + ": " + full_key(key) + value + ": " + what);
 }
 
 const toml::node* TomlTable::find(std::string_view key) {
@@ -322,30 +322,20 @@ std::string TomlTable::place_of(const toml::node* node) const {
   return file_;
 }
 
-std::string read_toml(const std::filesystem::path& file) {
-  if (is_folder(file))
-    throw SceneFileError(file.string() + ": is a folder, expected a scene in TOML");
-  try {
-    return read_whole_file(file);
-  } catch (const Error& error) {
-    throw SceneFileError(error.what());
-  }
-}
-
 toml::table load_toml(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  return parse_toml(read_toml(file), file, overrides);
+  return parse_toml(read_whole_file(file), file, overrides);
 }
 
 toml::table parse_toml(const std::string& text, const std::filesystem::path& file,
                        std::span<const std::string> overrides) {
   if (const auto line = line_too_deep(text))
-    throw SceneFileError(file.string() + ':' + std::to_string(*line) + ": " + too_deep);
+    throw Error(file.string() + ':' + std::to_string(*line) + ": " + too_deep);
   toml::table table;
   try {
     table = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw SceneFileError(file.string() + ':' + std::to_string(error.source().begin.line) +
-                         ": not valid TOML: " + std::string(error.description()));
+    throw Error(file.string() + ':' + std::to_string(error.source().begin.line) +
+                ": not valid TOML: " + std::string(error.description()));
   }
   for (const std::string& set : overrides) apply(file, set, table);
   return table;

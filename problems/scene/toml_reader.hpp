@@ -74,11 +74,9 @@ using ValuePlace = std::variant<double*, int*, std::uint64_t*, bool*, std::strin
 
 /// Parses a file and applies overrides "dotted.key=value" (elements of arrays of tables by index:
 /// body.0.mass=2). A value is TOML; a bare word is taken as a string, so that a shell needs no
-/// quotes within quotes. Throws SceneFileError.
+/// quotes within quotes. Throws Error.
 toml::table load_toml(const std::filesystem::path& file,
                       std::span<const std::string> overrides = {});
-/// The file's text. Throws SceneFileError.
-std::string read_toml(const std::filesystem::path& file);
 /// load_toml() of a text that was read.
 toml::table parse_toml(const std::string& text, const std::filesystem::path& file,
                        std::span<const std::string> overrides = {});
@@ -99,7 +97,7 @@ class TomlTable {
   /// As it stands in the file: for keys that are the user's.
   const toml::table& as_it_stands() const { return *table_; }
 
-  /// What is kept in `place` stays when the key is absent. Throws SceneFileError: missing, of
+  /// What is kept in `place` stays when the key is absent. Throws Error: missing, of
   /// another type, out of range; with what was expected.
   void read(std::string_view key, ValuePlace place, const ValueRule& rule = {},
             Presence presence = Presence::optional);
@@ -117,7 +115,7 @@ class TomlTable {
   /// What the resolved table shall say instead of what was read (a path made absolute).
   void replace_resolved(std::string_view key, const toml::node& value);
 
-  /// Every key must have been asked for. Throws SceneFileError with the nearest known key.
+  /// Every key must have been asked for. Throws Error with the nearest known key.
   void finish() const;
 
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;

@@ -123,7 +123,7 @@ TEST_CASE("What is wrong with the words is said") {
     CHECK_THROWS_WITH(external_commands(words), Contains(refusal));
   const auto typo =
       folder.write("typo.toml", "[[external]]\nname = \"a\"\ncommand = \"b\"\nserved = true\n");
-  CHECK_THROWS_AS(external_commands({typo}), SceneFileError);
+  CHECK_THROWS_AS(external_commands({typo}), Error);
 }
 
 TEST_CASE("An edited script has another key") {

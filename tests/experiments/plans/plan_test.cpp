@@ -18,7 +18,7 @@ std::string error_of(const std::string& text) {
   const fs::path file = folder.write("plan.toml", text);
   try {
     read_plan(file);
-  } catch (const SceneFileError& error) {
+  } catch (const Error& error) {
     CHECK_THAT(error.what(), Catch::StartsWith(file.string()));
     CHECK(std::string(error.what()).find('\n') == std::string::npos);
     return error.what();
@@ -70,7 +70,7 @@ set = ["scene.duration=1"]
   CHECK(plan.runs[5].overrides.back() == "solver.name=\"pgs\"");
   CHECK(select(plan, "nu-*name=pgs").size() == 2);
   CHECK(select(plan, "").size() == 6);
-  CHECK_THROWS_AS(select(plan, "mu-*"), SceneFileError);
+  CHECK_THROWS_AS(select(plan, "mu-*"), Error);
 }
 
 TEST_CASE("a scene's file is looked for beside the plan") {

@@ -15,7 +15,7 @@ inline const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
 inline std::string error_of(const TemporaryFolder& folder, const std::string& text,
                             const std::vector<std::string>& overrides = {}) {
   const std::string message =
-      complaint<SceneFileError>([&] { read_scene(folder.write("scene.toml", text), overrides); });
+      complaint<Error>([&] { read_scene(folder.write("scene.toml", text), overrides); });
   INFO(text);
   CHECK_THAT(message, Catch::StartsWith((folder.path() / "scene.toml").string()));
   CHECK(message.find('\n') == std::string::npos);
