@@ -10,10 +10,8 @@
 namespace ballast {
 namespace {
 
-constexpr Library suitesparse{"libsuitesparse-dev", has_sparse_factors};
-constexpr Library ipopt{"coinor-libipopt-dev", has_ipopt};
-constexpr Library nlopt{"libnlopt-dev", has_nlopt};
-constexpr Library siconos{"libsiconos-numerics-dev", has_siconos};
+constexpr const char *suitesparse = "libsuitesparse-dev", *ipopt = "coinor-libipopt-dev",
+                     *nlopt = "libnlopt-dev", *siconos = "libsiconos-numerics-dev";
 
 /// Every backend, as if all libraries were there: name, description, law, maker, library, limit.
 /// The description ends with what only this row answers.
@@ -87,7 +85,8 @@ std::span<const SolverEntry> solver_list() {
   static const std::vector<SolverEntry> list = [] {
     std::vector<SolverEntry> found(std::begin(rows), std::end(rows));
     for (SolverEntry& entry : found)
-      if (entry.needs.is_built_in && !entry.needs.is_built_in()) entry.make = nullptr;
+      if (std::string_view(entry.package) == suitesparse ? !has_sparse_factors() : !entry.make())
+        entry.make = nullptr;
     return found;
   }();
   return list;
@@ -105,7 +104,7 @@ std::unique_ptr<Solver> make_solver(std::string_view name) {
   const SolverEntry& entry = find_solver(name);
   if (!entry.make)
     throw MissingSolver("solver '" + std::string(name) +
-                        "' was built without its library; install " + entry.needs.package +
+                        "' was built without its library; install " + entry.package +
                         " and build again. There are: " + joined(all_names()));
   return entry.make();
 }

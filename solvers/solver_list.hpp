@@ -8,18 +8,12 @@
 
 namespace ballast {
 
-/// A library that a build may do without.
-struct Library {
-  const char* package = "";         ///< Debian's name: what to install; empty: none is needed
-  bool (*is_built_in)() = nullptr;  ///< null: always
-};
-
 struct SolverEntry {
   const char* name;         ///< as on the command line
   const char* description;  ///< one line, with the source
   ContactLaw law;
-  SolverMaker make;  ///< null: built without the library it needs
-  Library needs = {};
+  SolverMaker make;          ///< null: built without the library it needs
+  const char* package = "";  ///< Debian's name of the library it needs; empty: none
   /// Contacts of the largest problems that it promises to take, as it keeps dense matrices; more it
   /// may decline (UnsupportedProblem). 0: of any size.
   int largest = 0;

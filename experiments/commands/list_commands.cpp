@@ -196,7 +196,7 @@ Command solvers_command() {
               std::cout << printed("%-18s%-19s%-7s%-10s", entry.name, name_of(entry.law),
                                    entry.make ? "yes" : "no", largest.c_str())
                         << entry.description;
-              if (!entry.make) std::cout << " [install " << entry.needs.package << "]";
+              if (!entry.make) std::cout << " [install " << entry.package << "]";
               std::cout << '\n';
             }
             return ExitCode::ok;

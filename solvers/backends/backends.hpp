@@ -121,22 +121,20 @@ std::unique_ptr<Solver> make_proximal_newton(const ProximalNewtonSettings& setti
 /// the beginning it is prepared for Newton at once.
 std::unique_ptr<Solver> make_newton_burst(bool begins_with_sweeps = true);
 
-// With libraries that a build may do without: where one is missing, has_..() is false and its
-// makers give null (missing.cpp).
+// With libraries that a build may do without: where one is missing, its makers give null
+// (missing.cpp).
 
 /// The convex cone program with the s-update around it for Ipopt (Waechter, Biegler 2006): polar
 /// coordinates, exact sparse Hessian. An iteration is one of Ipopt's own. (Tried instead on 5
 /// problems: mu r_N - |r_T|, mu^2 r_N^2 - |r_T|^2 and mu^2 r_N - |r_T|^2 / r_N: 50 iterations to
 /// 500 and no answer, where this takes 30.)
 std::unique_ptr<Solver> make_ipopt();
-bool has_ipopt();
 
 /// The same program by SLSQP (Kraft 1994) of NLopt (Johnson). Contacts at the apex of their cone,
 /// as a projected gradient step tells, are left out of a round; the others have |r_T| <= mu r_N.
 /// NLopt keeps the Jacobian dense, and SLSQP a factor of the Hessian: larger problems are declined.
 /// An iteration is one evaluation of the objective.
 std::unique_ptr<Solver> make_nlopt();
-bool has_nlopt();
 inline constexpr int nlopt_limit = 60;  ///< contacts
 
 /// Siconos' numerics (https://nonsmooth.gricad-pages.univ-grenoble-alpes.fr/siconos): the field's
@@ -160,6 +158,5 @@ enum class SiconosMethod {
   nsn_ac      ///< nonsmooth Newton on Alart-Curnier's function
 };
 std::unique_ptr<Solver> make_siconos(SiconosMethod method);
-bool has_siconos();
 
 }  // namespace ballast

@@ -265,8 +265,6 @@ class IpoptCone final : public Solver {
 
 }  // namespace
 
-bool has_ipopt() { return true; }
-
 std::unique_ptr<Solver> make_ipopt() { return std::make_unique<IpoptCone>(); }
 
 }  // namespace ballast

@@ -122,8 +122,6 @@ class Nlopt final : public Solver {
 
 }  // namespace
 
-bool has_nlopt() { return true; }
-
 std::unique_ptr<Solver> make_nlopt() { return std::make_unique<Nlopt>(); }
 
 }  // namespace ballast

@@ -238,8 +238,6 @@ const SiconosRecipe recipes[] = {
 
 }  // namespace
 
-bool has_siconos() { return true; }
-
 std::unique_ptr<Solver> make_siconos(SiconosMethod method) {
   return std::make_unique<Siconos>(recipes[static_cast<int>(method)]);
 }

@@ -66,7 +66,7 @@ struct Kind {
 };
 
 /// Without a foreign library, which would sum in the order that suits the processor.
-bool is_own_code(const SolverEntry& entry) { return std::string(entry.needs.package).empty(); }
+bool is_own_code(const SolverEntry& entry) { return std::string(entry.package).empty(); }
 
 /// SuiteSparse orders the bodies, which is a matter of whole numbers; the factors are our own.
 bool factors_over_bodies(const SolverEntry& entry) {

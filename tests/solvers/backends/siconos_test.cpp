@@ -28,7 +28,7 @@ SolverRun solved_to(const FrictionProblem& problem, SiconosMethod method, double
 }  // namespace
 
 TEST_CASE("Siconos stops on its own measure, where it was asked to") {
-  if (!has_siconos()) return;
+  if (!make_siconos(SiconosMethod::nsgs)) return;
   const FrictionProblem problem = small_problem();
   const SolverRun loose = solved_to(problem, SiconosMethod::nsgs, 1e-3);
   const SolverRun tight = solved_to(problem, SiconosMethod::nsgs, 1e-8);
@@ -40,7 +40,7 @@ TEST_CASE("Siconos stops on its own measure, where it was asked to") {
 }
 
 TEST_CASE("An answer that Siconos is just content with is not sent back for another round") {
-  if (!has_siconos()) return;
+  if (!make_siconos(SiconosMethod::nsgs)) return;
   // Every sweep takes 1/2000 of the error: it stops within the hair below the tolerance.
   const FrictionProblem problem = mass_stack({1.0, 2000.0}, 3).problem;
   const SolverRun run = solved_to(problem, SiconosMethod::nsgs_full, 1e-5),
@@ -51,7 +51,7 @@ TEST_CASE("An answer that Siconos is just content with is not sent back for anot
 }
 
 TEST_CASE("In a child that may be lost Siconos is called as it is: the same bits") {
-  if (!has_siconos()) return;
+  if (!make_siconos(SiconosMethod::nsgs)) return;
   const FrictionProblem problem = small_problem();
   for (const SiconosMethod method : {SiconosMethod::nsgs, SiconosMethod::nsn_ac}) {
     const SolverRun here = solved_to(problem, method, 1e-6);
@@ -71,7 +71,7 @@ TEST_CASE("In a child that may be lost Siconos is called as it is: the same bits
 }
 
 TEST_CASE("Siconos' Newton goes on with a sparse W where it circles with a dense one") {
-  if (!has_siconos()) return;
+  if (!make_siconos(SiconosMethod::nsgs)) return;
   // 41 contacts: a dense W is the faster, but thousands of steps with it do not end.
   const FrictionProblem problem = make_pile(random_pile(304, 60));
   FclibStop stop(problem, 1e-4);
