@@ -1,6 +1,7 @@
 #pragma once
 // What the files of the Python module share: arrays in and out.
 
+#include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -16,58 +16,22 @@
 namespace ballast::python {
 namespace {
 
-/// The matrix of SciPy's compressed form (data, indices, pointers): by rows, or by columns, as it
-/// is. Throws std::invalid_argument.
-template <class Matrix>
-Matrix matrix_of(const py::tuple& parts, int rows, int columns, const std::string& name) {
-  const auto data = parts[0].cast<Doubles>();
-  const auto indices = parts[1].cast<Ints>(), pointers = parts[2].cast<Ints>();
-  const int lines = Matrix::IsRowMajor ? rows : columns;
-  const int length = Matrix::IsRowMajor ? columns : rows;
-  const auto fail = [&](const std::string& what) {
-    throw std::invalid_argument(name + ": " + what);
-  };
-  if (pointers.size() != lines + 1)
-    fail("has " + std::to_string(pointers.size() - 1) + " rows or columns, must have " +
-         std::to_string(lines));
-  const int* begin = pointers.data();
-  const int entries = begin[lines];
-  if (begin[0] != 0 || entries > data.size() || entries > indices.size())
-    fail("its pointers do not fit its entries");
-  std::vector<Eigen::Triplet<double>> list;
-  list.reserve(static_cast<size_t>(std::max(entries, 0)));
-  for (int line = 0; line < lines; ++line) {
-    if (begin[line + 1] < begin[line] || begin[line + 1] > entries) fail("its pointers decrease");
-    for (int k = begin[line]; k < begin[line + 1]; ++k) {
-      const int index = indices.data()[k];
-      if (index < 0 || index >= length)
-        fail("index " + std::to_string(index) + " is outside 0 to " + std::to_string(length - 1));
-      list.emplace_back(Matrix::IsRowMajor ? line : index, Matrix::IsRowMajor ? index : line,
-                        data.data()[k]);
-    }
-  }
-  Matrix matrix(rows, columns);
-  matrix.setFromTriplets(list.begin(), list.end());
-  return matrix;
-}
-
 std::vector<double> frictions(const Doubles& mu) { return {mu.data(), mu.data() + mu.size()}; }
 
-FrictionProblem from_delassus(const py::tuple& w, const Doubles& q, const Doubles& mu) {
-  const int rows = 3 * static_cast<int>(mu.size());
-  FrictionProblem problem = local_problem(matrix_of<SparseRows>(w, rows, rows, "W"),
-                                          vector_of(q, rows, "q"), frictions(mu));
+FrictionProblem from_delassus(SparseRows w, const Doubles& q, const Doubles& mu) {
+  const auto rows = static_cast<py::ssize_t>(w.rows());
+  FrictionProblem problem = local_problem(std::move(w), vector_of(q, rows, "q"), frictions(mu));
   problem.validate();
   return problem;
 }
 
-FrictionProblem from_bodies(const py::tuple& m, const py::tuple& h, const Doubles& f,
-                            const Doubles& w, const Doubles& mu) {
-  const int unknowns = static_cast<int>(f.size()), rows = 3 * static_cast<int>(mu.size());
-  using Columns = Eigen::SparseMatrix<double>;
-  FrictionProblem problem = to_friction_problem(GlobalProblem{
-      matrix_of<Columns>(m, unknowns, unknowns, "M"), matrix_of<Columns>(h, unknowns, rows, "H"),
-      vector_of(f, unknowns, "f"), vector_of(w, rows, "w"), frictions(mu)});
+FrictionProblem from_bodies(Eigen::SparseMatrix<double> m, Eigen::SparseMatrix<double> h,
+                            const Doubles& f, const Doubles& w, const Doubles& mu) {
+  const auto unknowns = static_cast<py::ssize_t>(h.rows()),
+             rows = static_cast<py::ssize_t>(h.cols());
+  FrictionProblem problem =
+      to_friction_problem(GlobalProblem{std::move(m), std::move(h), vector_of(f, unknowns, "f"),
+                                        vector_of(w, rows, "w"), frictions(mu)});
   problem.validate();
   return problem;
 }
@@ -76,41 +40,27 @@ Impulses impulses_of(const FrictionProblem& problem, const Doubles& r) {
   return own_rows(problem, vector_of(r, 3 * problem.contact_count(), "r"));
 }
 
-/// Data, indices and pointers of a compressed matrix, as SciPy takes them: memory of `owner`.
-template <class Matrix>
-py::tuple parts_of(const Matrix& matrix, const py::handle& owner) {
-  const auto entries = static_cast<py::ssize_t>(matrix.nonZeros());
-  const auto lines = static_cast<py::ssize_t>(matrix.outerSize()) + 1;
-  return py::make_tuple(Doubles({entries}, matrix.valuePtr(), owner),
-                        Ints({entries}, matrix.innerIndexPtr(), owner),
-                        Ints({lines}, matrix.outerIndexPtr(), owner));
-}
-
-/// The same of a matrix that the arrays take over.
-template <class Matrix>
-py::tuple owned_parts(Matrix matrix) {
-  matrix.makeCompressed();
-  auto* kept = new Matrix(std::move(matrix));
-  return parts_of(*kept,
-                  py::capsule(kept, [](void* memory) { delete static_cast<Matrix*>(memory); }));
-}
-
-/// W by rows: the problem's own memory where W is stored with three rows per contact, else built.
-py::tuple delassus(const py::object& self) {
+/// W by rows, as SciPy has it: the problem's own memory where W is stored with three rows per
+/// contact, else built.
+py::object delassus(const py::object& self) {
   const auto& problem = self.cast<const FrictionProblem&>();
-  const bool is_stored = problem.has_delassus && problem.row_count() == 3 * problem.contact_count();
-  if (!is_stored) return owned_parts(condensed(problem).delassus.w);
-  const py::tuple parts = parts_of(problem.delassus.w, self);
+  if (!problem.has_delassus || problem.row_count() != 3 * problem.contact_count())
+    return py::cast(condensed(problem).delassus.w);
+  const SparseRows& w = problem.delassus.w;
+  const auto entries = static_cast<py::ssize_t>(w.nonZeros());
+  const auto rows = static_cast<py::ssize_t>(w.rows());
+  const py::tuple parts = py::make_tuple(Doubles({entries}, w.valuePtr(), self),
+                                         Ints({entries}, w.innerIndexPtr(), self),
+                                         Ints({rows + 1}, w.outerIndexPtr(), self));
   for (const py::handle& part : parts) part.attr("setflags")(py::arg("write") = false);
-  return parts;
+  return py::module_::import("scipy.sparse").attr("csr_matrix")(parts, py::make_tuple(rows, rows));
 }
 
 /// M and H' by columns, and f.
 py::tuple bodies(const FrictionProblem& problem) {
   if (!problem.has_dynamics) throw std::invalid_argument("only W is known: there are no bodies");
   GlobalProblem global = to_global_problem(problem);
-  return py::make_tuple(owned_parts(std::move(global.m)), owned_parts(std::move(global.h)),
-                        owned(std::move(global.f)));
+  return py::make_tuple(global.m, global.h, owned(std::move(global.f)));
 }
 
 py::dict measures(const ContactError& error) {

@@ -19,6 +19,16 @@ def _require_shape(matrix: Any, rows: int, columns: int, name: str) -> None:
                          f"must be {rows} x {columns}")
 
 
+def _checked(matrix: Any, name: str) -> Any:
+    """A compressed matrix whose indices are within it, each entry once."""
+    try:
+        matrix.check_format(full_check=True)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+    matrix.sum_duplicates()
+    return matrix
+
+
 def _require_real(*arrays: Any) -> None:
     if any(np.iscomplexobj(array) for array in arrays):
         raise ValueError("expected real numbers, got complex ones")
@@ -35,10 +45,9 @@ class Problem:
         """From W [1/kg], dense or sparse, (3n, 3n), positive semidefinite; q [m/s], (3n) or (n, 3);
         mu, (n). Raises ValueError and InvalidProblem, which names the entry."""
         _require_real(W, q, mu)
-        W = sparse.csr_matrix(W)
-        W.sum_duplicates()
+        W = _checked(sparse.csr_matrix(W, copy=True), "W")
         _require_shape(W, 3 * len(mu), 3 * len(mu), "W")
-        return cls(_ballast.Problem.from_delassus((W.data, W.indices, W.indptr), q, mu))
+        return cls(_ballast.Problem.from_delassus(W, q, mu))
 
     @classmethod
     def from_bodies(cls, M: Any, H: Any, mu: np.ndarray, v_free: Optional[np.ndarray] = None,
@@ -46,8 +55,8 @@ class Problem:
         """From M [kg, kg m^2], (d, d), symmetric positive definite; H, (3n, d), with u = H v + w;
         mu, (n); v_free [m/s, rad/s], (d), or f = M v_free; w [m/s], (3n), zero if left out."""
         _require_real(M, H, mu, v_free, f, w)
-        M = sparse.csc_matrix(M)
-        transposed = sparse.csc_matrix(sparse.csr_matrix(H).T)
+        M = _checked(sparse.csc_matrix(M, copy=True), "M")
+        transposed = _checked(sparse.csr_matrix(H, copy=True), "H").T
         if (v_free is None) == (f is None):
             raise ValueError("expected one of v_free and f")
         if v_free is not None:
@@ -59,8 +68,7 @@ class Problem:
             w = np.zeros(3 * len(mu))
         _require_shape(M, len(f), len(f), "M")
         _require_shape(transposed.T, 3 * len(mu), len(f), "H")
-        parts = [(a.data, a.indices, a.indptr) for a in (M, transposed)]
-        return cls(_ballast.Problem.from_bodies(*parts, f, w, mu))
+        return cls(_ballast.Problem.from_bodies(M, transposed, f, w, mu))
 
     @classmethod
     def read(cls, file: Path) -> "Problem":
@@ -77,23 +85,17 @@ class Problem:
     def W(self) -> sparse.csr_matrix:
         """The Delassus matrix [1/kg], (3n, 3n): the problem's own memory, which cannot be written;
         built where only bodies are known."""
-        data, indices, pointers = self._core.delassus()
-        size = len(pointers) - 1
-        return sparse.csr_matrix((data, indices, pointers), (size, size))
+        return self._core.delassus()
 
     @property
     def M(self) -> sparse.csc_matrix:
         """Masses [kg, kg m^2], (d, d). Raises ValueError where only W is known; so do H and f."""
-        data, indices, pointers = self._core.bodies()[0]
-        size = len(pointers) - 1
-        return sparse.csc_matrix((data, indices, pointers), (size, size))
+        return self._core.bodies()[0]
 
     @property
     def H(self) -> sparse.csr_matrix:
         """u = H v + w, (3n, d)."""
-        mass, (data, indices, pointers), _ = self._core.bodies()
-        return sparse.csr_matrix((data, indices, pointers),
-                                 (len(pointers) - 1, len(mass[2]) - 1))
+        return self._core.bodies()[1].T
 
     @property
     def f(self) -> np.ndarray:
