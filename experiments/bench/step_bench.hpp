@@ -21,7 +21,7 @@ struct DepositedBox {
   Packing packing;
 };
 
-/// Throws Error: a scene without grains; SceneFileError.
+/// Throws Error: a scene without grains, or none.
 Scene bench_scene(const std::string& name, const std::vector<std::string>& overrides);
 
 /// From `cache`, or deposited now and kept there (resumable). Throws Error: interrupted.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "experiments/commands/command.hpp"
 #include "experiments/compare/collection.hpp"
@@ -138,45 +139,33 @@ Command compare_diff_command() {
           [options] { return diff(*options); }};
 }
 
-struct MergeOptions {
-  std::vector<std::string> folders;
-  std::filesystem::path output;
-};
-
-std::vector<StoredComparison> read_all(const MergeOptions& options) {
-  std::vector<StoredComparison> comparisons;
-  for (const std::string& folder : options.folders) comparisons.push_back(read_comparison(folder));
-  // The manifest of what is merged alone has an empty key.
-  require_own_folder(options.output, {{"manifest.json", "\"key\": \"\""}});
-  return comparisons;
-}
-
-ExitCode merge(const MergeOptions& options) {
-  const std::vector<StoredComparison> comparisons = read_all(options);
-  const size_t rows = write_merged(options.output, comparisons, own_command());
-  std::cout << comparisons.size() << " comparisons, " << rows
-            << " rows: " << (options.output / "compare.html").string() << std::endl;
-  return ExitCode::ok;
-}
-
-ExitCode rank(const MergeOptions& options) {
-  const std::vector<CompareRow> rows =
-      write_origins(options.output, read_all(options), own_command());
-  write_ranking(options.output, rows);
-  std::cout << rows.size() << " rows: " << (options.output / "index.html").string() << std::endl;
-  return ExitCode::ok;
-}
-
-/// A command that makes one page of several comparisons.
-Command merging_command(const char* name, const char* meaning, const char* output,
-                        ExitCode (*act)(const MergeOptions&)) {
-  const auto options = std::make_shared<MergeOptions>();
+/// A command that makes one page of several comparisons, by `write`.
+Command merging_command(const char* name, const char* meaning, const char* output, const char* page,
+                        void (*write)(const std::filesystem::path& folder,
+                                      std::span<const CompareRow> rows)) {
+  struct Options {
+    std::vector<std::string> folders;
+    std::filesystem::path output;
+  };
+  const auto options = std::make_shared<Options>();
   options->output = output;
   return {name,
           meaning,
           {{"folders", &options->folders, "Folders of comparisons", required},
            {"--output DIR", &options->output, "Folder of the page and its table"}},
-          [options, act] { return act(*options); }};
+          [=] {
+            std::vector<StoredComparison> comparisons;
+            for (const std::string& folder : options->folders)
+              comparisons.push_back(read_comparison(folder));
+            // The manifest of what is merged alone has an empty key.
+            require_own_folder(options->output, {{"manifest.json", "\"key\": \"\""}});
+            const std::vector<CompareRow> rows =
+                write_origins(options->output, comparisons, own_command());
+            write(options->output, rows);
+            std::cout << comparisons.size() << " comparisons, " << rows.size()
+                      << " rows: " << (options->output / page).string() << std::endl;
+            return ExitCode::ok;
+          }};
 }
 
 /// The words of the command line, and what is made of them.
@@ -341,9 +330,9 @@ Command compare_command() {
       {compare_diff_command(),
        merging_command(
            "merge", "Comparisons of several jobs, machines, days as one; ratios within a machine",
-           "results/merged", merge),
+           "results/merged", "compare.html", write_merged),
        merging_command("ranking", "Who solves what, and how fast: a page and a table",
-                       "results/ranking", rank),
+                       "results/ranking", "index.html", write_ranking),
        collect_command()}};
   const std::vector<Word> more = live_words(options->live);
   command.words.insert(command.words.end(), more.begin(), more.end());

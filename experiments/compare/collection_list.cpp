@@ -128,16 +128,16 @@ std::vector<CollectedRun> read_collection(const fs::path& file) {
     try {
       add_entry(entries.back(), runs);
     } catch (const std::exception& error) {
-      throw SceneFileError(file.string() + ": family " + entries.back().name + ": " + error.what());
+      throw Error(file.string() + ": family " + entries.back().name + ": " + error.what());
     }
   }
   root.finish();
   std::set<std::string> names;
   for (const CollectedRun& run : runs)
     if (!names.insert(run.name).second)
-      throw SceneFileError(file.string() + ": family " + run.family + ": " + run.name +
-                           " stands twice: expected other values or another name");
-  if (runs.empty()) throw SceneFileError(file.string() + ": expected tables [[family]]");
+      throw Error(file.string() + ": family " + run.family + ": " + run.name +
+                  " stands twice: expected other values or another name");
+  if (runs.empty()) throw Error(file.string() + ": expected tables [[family]]");
   return runs;
 }
 

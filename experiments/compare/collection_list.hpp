@@ -35,7 +35,7 @@ std::string collection_list();
 ///   part   "small" (default) or "large"
 ///   like   an entry further up: its scene, set, steps and vary hold where this one has none, and
 ///          this one's `set` is added to that one's
-/// Every scene is resolved. Throws SceneFileError naming file, key and value.
+/// Every scene is resolved. Throws Error naming file, key and value.
 std::vector<CollectedRun> read_collection(const std::filesystem::path& file);
 
 }  // namespace ballast

@@ -238,10 +238,7 @@ void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows
 RunData read_origin(const fs::path& folder) {
   RunData data;
   data.folder = folder;
-  const fs::path file = folder / "manifest.json";
-  auto parsed = Json::parse(read_whole_file(file), nullptr, false);
-  if (!parsed.is_object()) throw Error(file.string() + ": is no JSON object");
-  data.stored_manifest = std::make_shared<const Json>(std::move(parsed));
+  data.stored_manifest = std::make_shared<const Json>(json_of_file(folder / "manifest.json"));
   return data;
 }
 

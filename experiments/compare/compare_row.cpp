@@ -135,7 +135,7 @@ std::vector<std::string> cells_of(const CompareRow& row) {
   return cells;
 }
 
-std::string compare_csv(const std::vector<CompareRow>& rows) {
+std::string compare_csv(std::span<const CompareRow> rows) {
   CsvWriter csv;
   csv.add_row(compare_columns());
   for (const CompareRow& row : rows) csv.add_row(cells_of(row));

@@ -1,6 +1,7 @@
 #pragma once
 // What one solve of a comparison was and what came of it: the row of every table and figure.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,7 +73,7 @@ std::vector<std::string> compare_columns();
 std::vector<std::string> cells_of(const CompareRow& row);
 
 /// All rows without their histories; fields with commas or quotes are quoted.
-std::string compare_csv(const std::vector<CompareRow>& rows);
+std::string compare_csv(std::span<const CompareRow> rows);
 
 /// A row as JSON with its history, and back: bits of numbers kept, NaN and infinity as null; what
 /// is in no file is that of `row`. Throws Error naming `file`.

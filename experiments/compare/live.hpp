@@ -75,7 +75,7 @@ struct LiveComparison {
 
 /// Steps every backend to every tolerance, and by every number of iterations, in a child process of
 /// its own; trajectories that are there are not made again. `said` hears of each; returning false
-/// stops. Throws SceneFileError, Error.
+/// stops. Throws Error.
 LiveComparison run_live(const LiveOptions& options,
                         const std::function<bool(const Trajectory&)>& said);
 

@@ -106,12 +106,9 @@ std::vector<CompareRow> write_origins(const fs::path& folder,
   return std::move(all.rows);
 }
 
-size_t write_merged(const fs::path& folder, const std::vector<StoredComparison>& comparisons,
-                    const std::string& command) {
-  const std::vector<CompareRow> rows = write_origins(folder, comparisons, command);
+void write_merged(const fs::path& folder, std::span<const CompareRow> rows) {
   write_whole_file(folder / "results.csv", compare_csv(rows));
   write_compare_page(folder, rows);
-  return rows.size();
 }
 
 const char* name_of(Change change) {

@@ -42,9 +42,8 @@ std::vector<CompareRow> write_origins(const std::filesystem::path& folder,
                                       const std::vector<StoredComparison>& comparisons,
                                       const std::string& command);
 
-/// The same, with results.csv and compare.html of all rows; returns their number.
-size_t write_merged(const std::filesystem::path& folder,
-                    const std::vector<StoredComparison>& comparisons, const std::string& command);
+/// results.csv and compare.html of all rows.
+void write_merged(const std::filesystem::path& folder, std::span<const CompareRow> rows);
 
 // Two comparisons of the same cases, before and after a change: what has become of each solve.
 

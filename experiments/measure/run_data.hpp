@@ -1,6 +1,5 @@
 #pragma once
-// What a run's folder says about itself, read for the report: rows, manifest, scene. Only the rows
-// must be there.
+// What a run's folder says about itself, read for the report: rows, manifest, scene.
 
 #include <filesystem>
 #include <memory>
@@ -20,18 +19,21 @@ struct RunData {
   std::filesystem::path folder;
   std::vector<StepRecord> steps;
   std::shared_ptr<const nlohmann::ordered_json> stored_manifest;  ///< an object, or nothing
-  std::string manifest_text, scene_text;  ///< as in the files; empty when missing
-  std::optional<Scene> scene;             ///< when scene.toml is there and valid
-  RunFacts facts;                         ///< from the manifest's summary, else from the scene
-  std::vector<std::string> notices;  ///< what was missing, broken or not finite: one line each, for
-                                     ///< the reader of the report
+  std::string manifest_text, scene_text;                          ///< as in the files
+  std::optional<Scene> scene;                                     ///< of a run
+  RunFacts facts;
+  std::vector<std::string> notices;  ///< what was not finite: one line each, for the reader of the
+                                     ///< report
 
   /// An object; empty when there is none.
   const nlohmann::ordered_json& manifest() const;
 };
 
+/// Throws Error naming the file: it cannot be read, or holds no JSON object.
+nlohmann::ordered_json json_of_file(const std::filesystem::path& file);
+
 /// record.h5, or the logs of a run still going. Throws Error naming the file when there is no
-/// record, no row, no time, or it cannot be read.
+/// record, no row, no time, or one of the three cannot be read.
 RunData read_run_data(const std::filesystem::path& folder);
 
 }  // namespace ballast

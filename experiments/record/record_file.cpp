@@ -336,42 +336,21 @@ std::vector<FrameContact> RecordForces::of_frame(size_t frame) const {
 
 namespace {
 
-/// The polygons of a shape are what its hull makes of the vertices; where that drops one, the
-/// stored triangles are taken as they are.
-std::shared_ptr<const Polyhedron> shape_of(std::vector<Vec3> vertices,
-                                           const std::vector<std::vector<int>>& triangles) {
-  try {
-    Polyhedron hull = convex_hull(vertices);
-    if (hull.vertex_count() == static_cast<int>(vertices.size()))
-      return std::make_shared<const Polyhedron>(std::move(hull));
-  } catch (const InvalidPolyhedron&) {
-  }
-  return std::make_shared<const Polyhedron>(std::move(vertices), triangles, 1e-6);
-}
-
+/// The hulls of the vertices; the triangles are for other readers.
 std::vector<std::shared_ptr<const Polyhedron>> shapes_of(const SystemTables& tables,
                                                          const Hdf5Reader& file) {
-  // Where each shape begins: from zero, ascending, to the end of entries that come three by three.
-  const auto divides = [](const std::vector<int>& begin, size_t entries) {
-    return !begin.empty() && begin.front() == 0 && std::ranges::is_sorted(begin) &&
-           3 * static_cast<size_t>(begin.back()) == entries;
-  };
-  if (tables.vertex_begin.size() != tables.triangle_begin.size() ||
-      !divides(tables.vertex_begin, tables.vertices.size()) ||
-      !divides(tables.triangle_begin, tables.triangles.size()))
+  const std::vector<std::int32_t>& begin = tables.vertex_begin;
+  // Where each shape begins: from zero, ascending, to the end.
+  if (begin.empty() || begin.front() != 0 || !std::ranges::is_sorted(begin) ||
+      3 * static_cast<size_t>(begin.back()) != tables.vertices.size())
     file.fail("the datasets of /shapes do not fit together");
   std::vector<std::shared_ptr<const Polyhedron>> shapes;
-  for (size_t k = 0; k + 1 < tables.vertex_begin.size(); ++k) {
+  for (size_t k = 0; k + 1 < begin.size(); ++k) {
     std::vector<Vec3> corners;
-    for (int v = tables.vertex_begin[k]; v < tables.vertex_begin[k + 1]; ++v)
+    for (int v = begin[k]; v < begin[k + 1]; ++v)
       corners.emplace_back(tables.vertices.data() + 3 * static_cast<size_t>(v));
-    std::vector<std::vector<int>> faces;
-    for (int t = tables.triangle_begin[k]; t < tables.triangle_begin[k + 1]; ++t) {
-      const int* corner = tables.triangles.data() + 3 * static_cast<size_t>(t);
-      faces.push_back({corner[0], corner[1], corner[2]});
-    }
     try {
-      shapes.push_back(shape_of(std::move(corners), faces));
+      shapes.push_back(std::make_shared<const Polyhedron>(convex_hull(corners)));
     } catch (const InvalidPolyhedron& error) {
       file.fail("shape " + std::to_string(k) + ": " + error.what());
     }

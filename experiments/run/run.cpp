@@ -18,7 +18,7 @@ ResolvedScene resolve_run(const std::string& scene, const std::vector<std::strin
     try {
       find_solver(name);
     } catch (const UnknownSolver& error) {
-      throw SceneFileError(file.string() + ": " + key + " = \"" + name + "\": " + error.what());
+      throw Error(file.string() + ": " + key + " = \"" + name + "\": " + error.what());
     }
   };
   require("solver.name", resolved.scene.solver.name);
@@ -35,23 +35,11 @@ bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manife
     run.system = drive_system(scene, rain, packing, run.state);
     run.memory = std::move(packing.memory);
     run.control_volume = box_control_volume(scene, packing.deposit.top);
-    // What the run's page and the campaign's figures scale with.
-    const DepositState& deposit = packing.deposit;
-    const double mass = run.system.mass_of_grains(), g = scene.gravity.norm();
-    manifest.summary("grains", run.system.grain_count);
-    manifest.summary("grain_mass_kg", mass);
-    manifest.summary("weight_N", mass * g);
-    manifest.summary("f_max_N", scene.drive.f_max_over_weight * mass * g);
-    manifest.summary("wall_mass_kg", scene.drive.wall_mass_over_grains * mass);
-    manifest.summary("frequency_Hz", scene.drive.frequency);
-    manifest.summary("rain_time_s", deposit.rain_time);
-    manifest.summary("packing_top_m", deposit.top);
-    manifest.summary("lid_m", deposit.lid);
-    manifest.summary("rest_velocity_m_s", deposit.rest_velocity);
+    // What the run's page and the campaign's figures scale with, and the scene does not say.
+    manifest.summary("grain_mass_kg", run.system.mass_of_grains());
+    manifest.summary("packing_top_m", packing.deposit.top);
     manifest.summary("solid_fraction_initial",
                      run.control_volume->solid_fraction(run.system, run.state));
-    manifest.summary("d_min_m",
-                     std::ranges::min(scene.grains->distribution, {}, &SizeClass::size).size);
   } else {
     run.system = make_system(scene, run.state);
   }
@@ -155,8 +143,6 @@ class Run {
   /// Steps to the end of the scene, or until something stops it. Times, error and memory are noted
   /// in the manifest. Throws Error.
   ExitCode drive() {
-    manifest_.summary("step_s", scene_.step);
-    manifest_.summary("velocity_scale_m_s", velocity_scale(scene_));
     Recorder recorder(folder_.path(), run_.system, run_.state.step, scene_.record.forces);
     const Stopwatch watch;
     const long first = run_.state.step;

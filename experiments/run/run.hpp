@@ -14,7 +14,7 @@
 
 namespace ballast {
 
-/// A scene that is to be run, by name or path. Throws SceneFileError, also where no solver has the
+/// A scene that is to be run, by name or path. Throws Error, also where no solver has the
 /// name that stands in it; a known one may be missing in this build.
 ResolvedScene resolve_run(const std::string& scene, const std::vector<std::string>& overrides);
 
@@ -48,7 +48,7 @@ struct RunEnd {
 /// Runs to the end, to the time limit, or to a signal that InterruptGuard catches (checkpoint, then
 /// ExitCode::failure with the line that goes on). A folder is one process's at a time: another one
 /// that runs there throws, and a packing that another run deposits is waited for. Throws
-/// SceneFileError, InvalidProblem, MissingSolver, Error: each with a one-line what().
+/// InvalidProblem, MissingSolver, Error: each with a one-line what().
 ///
 /// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5,
 /// checkpoint.bin, capture/ (if asked for), log/ (append-only raw rows from which the two records

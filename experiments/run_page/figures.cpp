@@ -135,21 +135,18 @@ page::Picture jammed_figure(const RunData& data, const RunSummary& summary) {
 
 page::Picture error_figure(const RunData& data, const RunSummary& summary) {
   const double scale = summary.facts.velocity_scale;
-  const bool is_relative = std::isfinite(scale);
-  const double factor = is_relative ? 1.0 / scale : 1.0;
-  Panel panel = time_panel(data, is_relative ? "error\u00a0/\u00a0*gh*" : "error  (m/s)", true);
+  Panel panel = time_panel(data, "error\u00a0/\u00a0*gh*", true);
   panel.curves = {
-      column_line(data, &StepRecord::error_max, factor, "worst contact", Ink::light, 0.8),
-      column_line(data, &StepRecord::error_rms, factor, "rms over contacts", Ink::blue, 1.4)};
+      column_line(data, &StepRecord::error_max, 1.0 / scale, "worst contact", Ink::light, 0.8),
+      column_line(data, &StepRecord::error_rms, 1.0 / scale, "rms over contacts", Ink::blue, 1.4)};
   const double tolerance = summary.facts.tolerance;
-  if (is_relative && std::isfinite(tolerance))
+  if (std::isfinite(tolerance))
     panel.lines = {{tolerance, printed("%g: tolerance", tolerance), false, Ink::grey}};
-  page::Text caption = page::words("run.error");
-  caption += page::words(is_relative ? "run.error.relative" : "run.error.absolute",
-                         {{"scale", page::quantity(scale, "m/s")},
-                          {"mean", page::number(summary.error_mean_relative)},
-                          {"max", page::number(summary.error_max_relative)}});
-  if (is_relative && summary.facts.has_packing) caption += page::words("run.error.box");
+  page::Text caption =
+      page::words("run.error", {{"scale", page::quantity(scale, "m/s")},
+                                {"mean", page::number(summary.error_mean_relative)},
+                                {"max", page::number(summary.error_max_relative)}});
+  if (summary.facts.has_packing) caption += page::words("run.error.box");
   return run_picture("error", 420, {panel}, caption);
 }
 

@@ -70,22 +70,16 @@ void add_accuracy(const RunSummary& summary, Results& results) {
   // errors are judged by what the scene asks of each step
   const double tolerance = summary.facts.tolerance;
   results.group("Contact law");
-  if (std::isfinite(summary.facts.velocity_scale)) {
-    results.bounded("error, rms over contacts, over *gh*: mean of the steps",
-                    summary.error_mean_relative, tolerance);
-    results.bounded("the same: worst step", summary.error_max_relative, tolerance);
-    results.plain("worst contact of all steps, over *gh*",
-                  page::number(summary.error_max.max / summary.facts.velocity_scale));
-    if (tolerance > 0.0)
-      results.plain("steps that missed the tolerance",
-                    page::quantity(100.0 * static_cast<double>(summary.missed) /
-                                       static_cast<double>(summary.steps),
-                                   "%"));
-  } else {
-    results.plain("error, rms over contacts: mean of the steps",
-                  page::quantity(summary.error_rms.mean, "m/s"));
-    results.plain("the same: worst step", page::quantity(summary.error_rms.max, "m/s"));
-  }
+  results.bounded("error, rms over contacts, over *gh*: mean of the steps",
+                  summary.error_mean_relative, tolerance);
+  results.bounded("the same: worst step", summary.error_max_relative, tolerance);
+  results.plain("worst contact of all steps, over *gh*",
+                page::number(summary.error_max.max / summary.facts.velocity_scale));
+  if (tolerance > 0.0)
+    results.plain(
+        "steps that missed the tolerance",
+        page::quantity(
+            100.0 * static_cast<double>(summary.missed) / static_cast<double>(summary.steps), "%"));
   // these bounds are the vibrated box's: its grains' size, its drive
   const double known = summary.facts.has_packing ? 1.0 : not_known;
   results.group("Overlap");
@@ -290,7 +284,6 @@ void write_report(const std::filesystem::path& folder) {
   const auto note = [&](const char* name) {
     data.notices.push_back(page::plain_words(page::words(name)));
   };
-  if (!std::isfinite(summary.facts.velocity_scale)) note("run.no_gravity");
   if (has_packing && summary.wall.periods.empty()) note("run.no_period");
   page::Section motion{"motion", "What happens"},
       figures{"paper", has_packing ? "What the paper shows" : "Motion of the wall"},

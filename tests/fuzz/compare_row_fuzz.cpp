@@ -17,7 +17,7 @@ void read_row(const std::string& json) {
     const std::string text = to_json(row);
     if (to_json(compare_row_of_json(text, file)) != text)
       fuzz::finding("the written row reads back as another");
-    compare_csv({row});
+    compare_csv(std::vector{row});
   });
 }
 

@@ -27,7 +27,7 @@ TEST_CASE("A row survives its file to the last bit") {
   CHECK(std::isnan(back.fclib));
   REQUIRE(back.history.size() == 2);
   CHECK(back.history[1].error == 5e-324);
-  CHECK(compare_csv({row}).find("\"a, \"\"b\"\"\"") != std::string::npos);
+  CHECK(compare_csv(std::vector{row}).find("\"a, \"\"b\"\"\"") != std::string::npos);
   CompareRow asked = row;
   asked.word = "a.dat";  // in no file
   const CompareRow again = compare_row_of_json(to_json(row), "file", asked);
@@ -73,7 +73,7 @@ TEST_CASE("A count that no int can hold is refused") {
 TEST_CASE("Every line of the CSV has every column, and a line break in a note makes no line") {
   CompareRow row;
   row.note = "two\nlines, \"quoted\"";
-  const std::string csv = compare_csv({row, row});
+  const std::string csv = compare_csv(std::vector{row, row});
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
   CHECK(csv.find("\"two lines, \"\"quoted\"\"\"") != std::string::npos);
   const std::string head = csv.substr(0, csv.find('\n'));

@@ -95,14 +95,15 @@ TEST_CASE("Of each solve on a machine the newest comparison's rows count") {
 
 TEST_CASE("Merged comparisons are a page and a table, and who made what is noted") {
   const TemporaryFolder folder;
-  CHECK(write_merged(folder.path() / "all", three_comparisons(), "ballast compare merge") == 5);
-  const std::string csv = read_whole_file(folder.path() / "all/results.csv");
+  const std::filesystem::path all = folder.path() / "all";
+  write_merged(all, write_origins(all, three_comparisons(), "ballast compare merge"));
+  const std::string csv = read_whole_file(all / "results.csv");
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 6);
-  CHECK_THAT(read_whole_file(folder.path() / "all/manifest.json"),
+  CHECK_THAT(read_whole_file(all / "manifest.json"),
              Catch::Contains("\"slow\": \"M2: slow; a; 2026-01-15\""));
-  const std::string page = read_whole_file(folder.path() / "all/compare.html");
+  const std::string page = read_whole_file(all / "compare.html");
   if (page::can_answer()) CHECK_THAT(page_data(page), Catch::Contains("M1 · x"));
-  CHECK_THROWS_WITH(write_merged(folder.path(), {}, ""), Catch::Contains("have no rows"));
+  CHECK_THROWS_WITH(write_origins(folder.path(), {}, ""), Catch::Contains("have no rows"));
 }
 
 TEST_CASE("Two measures are not one table") {

@@ -1,9 +1,8 @@
-// Reading a run's folder: what is there is read, what is missing or broken is said.
+// Reading a run's folder.
 
 #include "experiments/measure/run_data.hpp"
 
 #include <cmath>
-#include <fstream>
 
 #include "platform/error.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -22,50 +21,57 @@ std::vector<StepRecord> some_steps() {
   return synthetic_box(box);
 }
 
+void write_run(const TemporaryFolder& folder, const std::vector<StepRecord>& steps,
+               const char* scene) {
+  write_rows(folder.path(), steps);
+  folder.write("manifest.json", R"({"summary": {"grain_mass_kg": 100}})");
+  folder.write("scene.toml", resolve_scene(find_scene(scene)).text);
+}
+
 }  // namespace
 
-TEST_CASE("a record alone is read, its gaps are said, and facts are found in it") {
+TEST_CASE("a run's gaps are said") {
   const TemporaryFolder folder;
   auto steps = some_steps();
   steps[3].load = not_known;
-  write_rows(folder.path(), steps);
+  write_run(folder, steps, "vibrated_box");
   const RunData data = read_run_data(folder.path());
-  CHECK_FALSE(data.scene);
   REQUIRE(data.steps.size() == steps.size());
   CHECK(data.steps[7].wall_force == steps[7].wall_force);
-  REQUIRE(data.notices.size() == 3);
+  REQUIRE(data.notices.size() == 1);
   CHECK_THAT(data.notices[0], Contains("load is not finite in 1 of") && Contains("in row 4"));
-  CHECK_THAT(data.notices[1], Contains("manifest.json is missing"));
-  CHECK_THAT(data.notices[2], Contains("scene.toml is missing"));
-  CHECK(data.facts.step == Approx(SyntheticBox{}.h).epsilon(1e-9));
-  CHECK(data.facts.f_max > data.facts.f_min);
-  CHECK(data.facts.has_wall);
-  CHECK(data.facts.has_packing);
-  CHECK(data.facts.solid_fraction_initial == steps[0].solid_fraction);
-  CHECK(std::isnan(data.facts.velocity_scale));  // gravity is in no row
 }
 
-TEST_CASE("facts come from the manifest, what it lacks from the scene") {
+TEST_CASE("facts come from the scene, and of the packing from the manifest") {
   const TemporaryFolder folder;
-  write_rows(folder.path(), some_steps());
-  folder.write("manifest.json",
-               R"({"summary": {"grain_mass_kg": 100, "f_max_N": 7, "step_s": 1}})");
-  std::ofstream(folder.path() / "scene.toml") << resolve_scene(find_scene("vibrated_box")).text;
-  const RunData data = read_run_data(folder.path());
-  REQUIRE(data.scene);
-  CHECK(data.facts.step == 1.0);
-  CHECK(data.facts.f_max == 7.0);
-  CHECK(data.facts.gravity == Approx(9.81));
-  CHECK(data.facts.frequency == 5.0);
-  CHECK(data.facts.tolerance == 0.01);
-  CHECK(data.facts.wall_mass == Approx(50.0));
-  CHECK(data.facts.has_wall);
+  write_run(folder, some_steps(), "vibrated_box");
+  const RunFacts box = read_run_data(folder.path()).facts;
+  CHECK(box.step == 2e-4);
+  CHECK(box.gravity == Approx(9.81));
+  CHECK(box.velocity_scale == Approx(9.81 * 2e-4));
+  CHECK(box.frequency == 5.0);
+  CHECK(box.tolerance == 0.01);
+  CHECK(box.f_max == Approx(3.0 * 981.0));
+  CHECK(box.wall_mass == Approx(50.0));
+  CHECK((box.has_wall && box.has_packing));
+  CHECK(std::isnan(box.height));
   // a wall that is driven without grains
-  std::ofstream(folder.path() / "scene.toml")
-      << resolve_scene(find_scene("empty_driven_wall")).text;
+  write_run(folder, some_steps(), "empty_driven_wall");
   const RunFacts bare = read_run_data(folder.path()).facts;
   CHECK((bare.has_wall && !bare.has_packing));
   CHECK(bare.frequency == 5.0);
+  CHECK(bare.f_max > bare.f_min);
+}
+
+TEST_CASE("what cannot be read is named") {
+  const TemporaryFolder folder;
+  write_run(folder, some_steps(), "vibrated_box");
+  folder.write("scene.toml", "[scene]\nname = 3\n");
+  CHECK_THROWS_WITH(read_run_data(folder.path()), Contains("scene.toml"));
+  folder.write("manifest.json", "[1, 2]");
+  CHECK_THROWS_WITH(read_run_data(folder.path()), Contains("manifest.json"));
+  std::filesystem::remove(folder.path() / "manifest.json");
+  CHECK_THROWS_WITH(read_run_data(folder.path()), Contains("manifest.json"));
 }
 
 TEST_CASE("a record whose time does not grow is refused, as is a folder that isn't there") {

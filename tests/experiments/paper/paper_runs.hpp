@@ -60,7 +60,6 @@ inline std::vector<StepRecord> scaled_record(const Scene& scene, const PaperLaw&
 /// As a finished run leaves its folder, as far as the report looks at it.
 inline void write_run(const std::filesystem::path& results, const PlannedRun& run,
                       const PaperLaw& law = {}) {
-  const double mass = 200.0;
   const std::filesystem::path folder = run_folder(results, run);
   std::filesystem::create_directories(folder);
   const auto file = find_scene(run.scene);
@@ -74,13 +73,7 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
     record.add(std::string("steps/") + column.name, record_column(steps, column.value));
   record.commit();
   Manifest manifest(scene.name, run.overrides, run.key);
-  const double g = scene.gravity.norm();
-  manifest.summary("grains", scene.grains->count);
-  manifest.summary("grain_mass_kg", mass);
-  manifest.summary("weight_N", mass * g);
-  manifest.summary("f_max_N", scene.drive.f_max_over_weight * mass * g);
-  manifest.summary("wall_mass_kg", scene.drive.wall_mass_over_grains * mass);
-  manifest.summary("frequency_Hz", scene.drive.frequency);
+  manifest.summary("grain_mass_kg", 200.0);
   manifest.summary("solid_fraction_initial", 0.50);
   manifest.summary("packing_top_m", 0.46);
   manifest.summary(steps_left_entry, 0.0);

