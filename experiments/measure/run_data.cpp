@@ -87,7 +87,7 @@ double summary_number(const RunData& data, const std::string& name) {
 /// From the scene, and from the manifest's summary what the run found of its packing.
 RunFacts facts_of(const RunData& data) {
   RunFacts facts;
-  add_settings(*data.scene, facts);
+  if (data.scene) add_settings(*data.scene, facts);
   facts.grain_mass = summary_number(data, "grain_mass_kg");
   facts.height = summary_number(data, "packing_top_m");
   facts.solid_fraction_initial = summary_number(data, "solid_fraction_initial");
@@ -124,7 +124,11 @@ RunData read_run_data(const fs::path& folder) {
   data.manifest_text = read_whole_file(manifest);
   data.stored_manifest = std::make_shared<const nlohmann::ordered_json>(json_of_file(manifest));
   data.scene_text = read_whole_file(scene);
-  data.scene = read_scene(scene);
+  try {
+    data.scene = read_scene(scene);
+  } catch (const Error& error) {  // its meshes may be gone
+    data.notices.push_back(std::string("The scene cannot be used: ") + error.what());
+  }
   data.facts = facts_of(data);
   return data;
 }

@@ -20,10 +20,10 @@ struct RunData {
   std::vector<StepRecord> steps;
   std::shared_ptr<const nlohmann::ordered_json> stored_manifest;  ///< an object, or nothing
   std::string manifest_text, scene_text;                          ///< as in the files
-  std::optional<Scene> scene;                                     ///< of a run
+  std::optional<Scene> scene;  ///< of a run; none where it can't be used any more
   RunFacts facts;
-  std::vector<std::string> notices;  ///< what was not finite: one line each, for the reader of the
-                                     ///< report
+  std::vector<std::string> notices;  ///< what was not finite or not usable: one line each, for the
+                                     ///< reader of the report
 
   /// An object; empty when there is none.
   const nlohmann::ordered_json& manifest() const;
@@ -33,7 +33,8 @@ struct RunData {
 nlohmann::ordered_json json_of_file(const std::filesystem::path& file);
 
 /// record.h5, or the logs of a run still going. Throws Error naming the file when there is no
-/// record, no row, no time, or one of the three cannot be read.
+/// record, no row, no time, or one of the three cannot be read. Of a scene that is wrong a notice
+/// tells.
 RunData read_run_data(const std::filesystem::path& folder);
 
 }  // namespace ballast

@@ -188,13 +188,18 @@ TEST_CASE("no record, no report: the error names the file and the place") {
   CHECK_FALSE(fs::exists(folder.path() / "report.html"));
 }
 
-TEST_CASE("a manifest of other parts than ours is no fault of the page") {
+TEST_CASE("neither a manifest of other parts nor a scene that is wrong is a fault of the page") {
   const TemporaryFolder folder;
   write_slide(folder);
   folder.write("manifest.json",
                GENERATE("{\"summary\": 3, \"ballast\": [], \"overrides\": {}, \"resumed\": 1}",
                         "{\"summary\": {\"deep\": {\"er\": [1, {\"a\": null}]}}}"));
   CHECK(nesting_fault(page_of(folder)) == "");
+  write_box(folder);  // of a scene whose meshes are gone there is still a page
+  folder.write("scene.toml", "[scene]\nname = 3\n");
+  const std::string page = page_of(folder);
+  CHECK_THAT(page, Contains("The scene cannot be used: ") && !Contains(">nan"));
+  CHECK(nesting_fault(page) == "");
 }
 
 TEST_CASE("the scene's parameters are on the page") {
