@@ -272,7 +272,7 @@ std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesyst
               (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
         return child.answer;
       };
-      in_child([&] { return std::string(deposited_box(scene, cache).packing.key); });
+      in_child([&] { return deposited_box(scene, cache).packing.key; });
       const std::string answer = in_child([&] {
         measure_packing(scene, cache, options, point);
         Packer packer;

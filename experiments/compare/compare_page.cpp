@@ -238,7 +238,8 @@ void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows
 RunData read_origin(const fs::path& folder) {
   RunData data;
   data.folder = folder;
-  data.stored_manifest = std::make_shared<const Json>(json_of_file(folder / "manifest.json"));
+  const fs::path file = folder / "manifest.json";
+  data.stored_manifest = std::make_shared<const Json>(json_object(read_whole_file(file), file));
   return data;
 }
 

@@ -106,8 +106,8 @@ const nlohmann::ordered_json& RunData::manifest() const {
   return stored_manifest ? *stored_manifest : none;
 }
 
-nlohmann::ordered_json json_of_file(const fs::path& file) {
-  auto parsed = nlohmann::ordered_json::parse(read_whole_file(file), nullptr, false);
+nlohmann::ordered_json json_object(const std::string& text, const fs::path& file) {
+  auto parsed = nlohmann::ordered_json::parse(text, nullptr, false);
   if (!parsed.is_object()) throw Error(file.string() + ": " + broken_json);
   return parsed;
 }
@@ -122,7 +122,8 @@ RunData read_run_data(const fs::path& folder) {
   note_gaps(data.steps, data.notices);
   const fs::path manifest = folder / "manifest.json", scene = folder / "scene.toml";
   data.manifest_text = read_whole_file(manifest);
-  data.stored_manifest = std::make_shared<const nlohmann::ordered_json>(json_of_file(manifest));
+  data.stored_manifest =
+      std::make_shared<const nlohmann::ordered_json>(json_object(data.manifest_text, manifest));
   data.scene_text = read_whole_file(scene);
   try {
     data.scene = read_scene(scene);

@@ -29,12 +29,12 @@ struct RunData {
   const nlohmann::ordered_json& manifest() const;
 };
 
-/// Throws Error naming the file: it cannot be read, or holds no JSON object.
-nlohmann::ordered_json json_of_file(const std::filesystem::path& file);
+/// The object in a file's text. Throws Error naming the file.
+nlohmann::ordered_json json_object(const std::string& text, const std::filesystem::path& file);
 
 /// record.h5, or the logs of a run still going. Throws Error naming the file when there is no
-/// record, no row, no time, or one of the three cannot be read. Of a scene that is wrong a notice
-/// tells.
+/// record, no row, no time, or one of the three cannot be read. A scene that is wrong becomes
+/// a notice.
 RunData read_run_data(const std::filesystem::path& folder);
 
 }  // namespace ballast
