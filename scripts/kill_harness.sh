@@ -5,27 +5,32 @@
 #
 #   scripts/kill_harness.sh [--kills N] [--seed S] [--only "run compare"] [--ballast PROGRAM]
 #                           [--report FILE]
+#   sudo scripts/kill_harness.sh --disks N [--only ...]
 #
 # N kills in all (100), shared among the activities. Prints a report (Markdown), and writes it to
 # FILE. Exit code 1 when anything differs, or when the program ends in another way than by success.
+# With --disks each activity is begun on N disks instead, from an almost empty one to one that lacks
+# little. It must end with exit code 1 and name a file; when the disk has grown, the same command
+# must go on to the same bits.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-kills=100 seed=1 only="run deposit plan compare paper collect archive" report=
+kills=100 disks=0 seed=1 only="run deposit plan compare paper collect archive" report=
 ballast=$root/build/default/bin/ballast
 while [ $# -gt 0 ]; do
   case $1 in
     --kills) kills=$2 ;;
+    --disks) disks=$2 ;;
     --seed) seed=$2 ;;
     --only) only=$2 ;;
     --ballast) ballast=$2 ;;
     --report) report=$2 ;;
-    *) sed -n '2,11p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'; exit 2 ;;
+    *) sed -n '2,15p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'; exit 2 ;;
   esac
   shift 2
 done
 export OPENBLAS_NUM_THREADS=1
 folder=$(mktemp -d "${TMPDIR:-/tmp}/ballast_kills_XXXXXX")
-trap 'rm -rf "$folder"' EXIT
+trap 'umount -q "$folder/disk" || true; rm -rf "$folder"' EXIT
 RANDOM=$seed
 
 # Twenty grains, checkpoints every 20 ms.
@@ -94,6 +99,27 @@ bits() {
   esac)
 }
 
+# fill_disks ACTIVITY: begins it on disks of which all are too small; prints one line.
+fill_disks() {
+  local needed level code refused=0 went_on=0 whole=$folder/$1.whole disk=$folder/disk log=$folder/$1.log
+  needed=$(du -sk "$whole" | cut -f1)
+  mkdir -p "$disk"
+  for ((level = 1; level <= disks; ++level)); do
+    mount -t tmpfs -o "size=$((needed * level / (disks + 1) / 4 * 4 + 4))k" ballast_disk "$disk"
+    code=0
+    (begin "$1" "$disk") >"$log" 2>&1 || code=$?
+    if [ "$code" = 1 ] && grep -q "$disk/.*No space left" "$log"; then refused=$((refused + 1))
+    else echo "$1, disk $level: exit code $code: $(tail -n 2 "$log")" >&2; fi
+    mount -o remount,size=1g "$disk"
+    if (begin "$1" "$disk") >"$log" 2>&1 && bits "$1" "$disk" | diff -q - "$folder/$1.bits" >&2; then
+      went_on=$((went_on + 1))
+    else echo "$1, disk $level, does not go on: $(tail -n 2 "$log")" >&2; fi
+    umount "$disk"
+  done
+  echo "| $1 | $needed kB | $disks | $refused | $went_on |"
+  [ "$refused" = "$disks" ] && [ "$went_on" = "$disks" ]
+}
+
 now() { date +%s.%N; }
 rows=() total=0 bad=0
 share=$(((kills + $(wc -w <<<"$only") - 1) / $(wc -w <<<"$only")))
@@ -109,6 +135,12 @@ for activity in $only; do
   (begin "$activity" "$whole") >"$log" 2>&1 || { tail -n 3 "$log"; echo "$activity fails"; exit 1; }
   seconds=$(awk -v a="$start" -v b="$(now)" 'BEGIN { print b - a }')
   bits "$activity" "$whole" >"$folder/$activity.bits"
+  if [ "$disks" -gt 0 ]; then
+    [ "$activity" != "${only%% *}" ] || printf '%s\n' \
+      '| activity | needs | disks too small | refused | went on with the same bits |' '|---|---|---|---|---|'
+    fill_disks "$activity" || bad=$((bad + 1))
+    continue
+  fi
   done_count=0 killed=0 wrong=0 ended=0 round=0
   while [ "$killed" -lt "$share" ] && [ "$round" -lt 1000 ]; do
     round=$((round + 1)) there=$folder/$activity.$round longest=0.4
@@ -153,6 +185,7 @@ write_report() {
   echo "|---|---|---|---|---|---|---|"
   printf '%s\n' "${rows[@]}"
 }
+[ "$disks" = 0 ] || exit $((bad > 0))
 write_report
 [ -z "$report" ] || write_report >"$report"
 [ "$bad" = 0 ]

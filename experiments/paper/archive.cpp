@@ -19,15 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string output_of(const std::string& program, const std::vector<std::string>& arguments) {
+/// What the program prints about the file that it reads or makes. Throws Error that names it.
+std::string output_of(const std::string& program, const std::vector<std::string>& arguments,
+                      const fs::path& file) {
   const ProgramResult result = run_program(program, arguments, /*seconds=*/300.0);
-  if (!result.succeeded()) throw Error("paper archive: " + program + ": " + result.errors);
+  if (!result.succeeded())
+    throw Error(file.string() + ": " + program + ": " + one_line(result.errors, ' '));
   return result.output;
 }
 
 /// 64 digits.
 std::string sha256_of(const fs::path& file) {
-  return output_of("sha256sum", {"--", file.string()}).substr(0, 64);
+  return output_of("sha256sum", {"--", file.string()}, file).substr(0, 64);
 }
 
 /// What stands in its files, by the path within the archive.
@@ -112,7 +115,7 @@ fs::path write_archive(PaperData& data, const ArchiveOrder& order) {
                                  "--directory=" + order.output.string(),
                                  "--"};
   words.insert(words.end(), members.begin(), members.end());
-  output_of("tar", words);
+  output_of("tar", words, packed);
   fs::rename(neighbour, packed);
   return packed;
 }

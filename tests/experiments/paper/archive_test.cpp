@@ -56,6 +56,13 @@ TEST_CASE("a packing that is there has its checksum in the archive") {
   CHECK_THAT(table, Catch::Contains("vibrated_box,2,1,\n"));
 }
 
+TEST_CASE("an archive that cannot be packed is one error that names it") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "ballast-paper.tar.gz.tmp");
+  CHECK_THROWS_WITH(archive_in(folder.path()),
+                    Catch::StartsWith((folder.path() / "ballast-paper.tar.gz: tar: ").string()));
+}
+
 TEST_CASE("the archive's reader draws the main figure") {
   const TemporaryFolder folder;
   archive_in(folder.path());
