@@ -30,7 +30,7 @@ while [ $# -gt 0 ]; do
 done
 export OPENBLAS_NUM_THREADS=1
 folder=$(mktemp -d "${TMPDIR:-/tmp}/ballast_kills_XXXXXX")
-trap 'umount -q "$folder/disk" || true; rm -rf "$folder"' EXIT
+trap 'umount "$folder/disk" 2>/dev/null || true; rm -rf "$folder"' EXIT
 RANDOM=$seed
 
 # Twenty grains, checkpoints every 20 ms.
@@ -67,8 +67,8 @@ begin() {
     compare) exec "$ballast" compare known:bodies=20,contacts=40,count=4 pile:contacts=16 \
         --solvers pgs,nncg,prox_newton,interior_point --tolerances 1e-4,1e-8 --memory 0 \
         --output "$2" ;;
-    paper) exec "$ballast" paper fig3 --jobs 1 --only 'motion*seed=1' --set solver.max_iterations=5 --scene vibrated_box_small \
-        "${small[@]}" --results "$2" ;;
+    paper) exec "$ballast" paper fig3 --jobs 1 --only 'motion*seed=1' \
+        --set solver.max_iterations=5 --scene vibrated_box_small "${small[@]}" --results "$2" ;;
     collect) exec "$ballast" compare collect --list "$folder/collection.toml" --output "$2/c" ;;
     archive) exec "$ballast" paper archive --rows "$root/docs/measured/campaign_runs.csv" \
         --results "$2/none" --output "$2/archive" ;;
@@ -87,11 +87,13 @@ columns() {
 bits() {
   (cd "$2" && case $1 in
     compare) columns results.csv 'seconds|memory|runs|key|note' | md5sum ;;
-    collect) find c/problems -type f | sort | xargs md5sum; columns c/manifest.csv second | md5sum ;;
+    collect)
+      find c/problems -type f | sort | xargs md5sum
+      columns c/manifest.csv second | md5sum ;;
     archive) find archive -type f | sort | xargs md5sum ;;
     *)
-      find . -name poses.bin -o -name checkpoint.bin -o -name 'packing-*.bin' -o -name 'step_*.bin' |
-        sort | xargs -r md5sum
+      find . -name poses.bin -o -name checkpoint.bin -o -name 'packing-*.bin' \
+        -o -name 'step_*.bin' | sort | xargs -r md5sum
       find . -name steps.csv | sort | while read -r table; do
         echo "$table $(columns "$table" '^seconds' | md5sum)"
       done
@@ -101,18 +103,19 @@ bits() {
 
 # fill_disks ACTIVITY: begins it on disks of which all are too small; prints one line.
 fill_disks() {
-  local needed level code refused=0 went_on=0 whole=$folder/$1.whole disk=$folder/disk log=$folder/$1.log
-  needed=$(du -sk "$whole" | cut -f1)
+  local disk=$folder/disk log=$folder/$1.log needed level size code refused=0 went_on=0
+  needed=$(du -sk "$folder/$1.whole" | cut -f1)
   mkdir -p "$disk"
   for ((level = 1; level <= disks; ++level)); do
-    mount -t tmpfs -o "size=$((needed * level / (disks + 1) / 4 * 4 + 4))k" ballast_disk "$disk"
+    size=$((needed * level * 9 / (10 * disks) / 4 * 4 + 4))
+    mount -t tmpfs -o "size=${size}k" ballast_disk "$disk"
     code=0
     (begin "$1" "$disk") >"$log" 2>&1 || code=$?
     if [ "$code" = 1 ] && grep -q "$disk/.*No space left" "$log"; then refused=$((refused + 1))
     else echo "$1, disk $level: exit code $code: $(tail -n 2 "$log")" >&2; fi
     mount -o remount,size=1g "$disk"
-    if (begin "$1" "$disk") >"$log" 2>&1 && bits "$1" "$disk" | diff -q - "$folder/$1.bits" >&2; then
-      went_on=$((went_on + 1))
+    if (begin "$1" "$disk") >"$log" 2>&1 &&
+      bits "$1" "$disk" | diff -q - "$folder/$1.bits" >&2; then went_on=$((went_on + 1))
     else echo "$1, disk $level, does not go on: $(tail -n 2 "$log")" >&2; fi
     umount "$disk"
   done
@@ -137,7 +140,8 @@ for activity in $only; do
   bits "$activity" "$whole" >"$folder/$activity.bits"
   if [ "$disks" -gt 0 ]; then
     [ "$activity" != "${only%% *}" ] || printf '%s\n' \
-      '| activity | needs | disks too small | refused | went on with the same bits |' '|---|---|---|---|---|'
+      '| activity | needs | disks too small | refused | went on with the same bits |' \
+      '|---|---|---|---|---|'
     fill_disks "$activity" || bad=$((bad + 1))
     continue
   fi
@@ -173,7 +177,8 @@ for activity in $only; do
     rm -rf "$there"
   done
   total=$((total + killed)) bad=$((bad + wrong + ended))
-  rows+=("| $activity | $(printf '%.1f' "$seconds") s | $killed | $round | $done_count | $wrong | $ended |")
+  rows+=("$(printf '| %s | %.1f s | %d | %d | %d | %d | %d |' "$activity" "$seconds" "$killed" \
+    "$round" "$done_count" "$wrong" "$ended")")
 done
 
 write_report() {
