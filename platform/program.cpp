@@ -336,7 +336,9 @@ SupervisedProgram::SupervisedProgram(const std::string& command,
     if (limits.folder.empty() || chdir(limits.folder.c_str()) == 0)
       become(words, environment, talk.theirs, talk.theirs, errors.theirs);
   };
-  supervisor_ = std::make_unique<ChildProcess>([&] { supervise(become_program); });
+  // Two of them: where one is killed without a word, the other clears up.
+  supervisor_ =
+      std::make_unique<ChildProcess>([&] { supervise([&] { supervise(become_program); }); });
   close(talk.theirs);
   close(errors.theirs);
 }

@@ -90,7 +90,7 @@ struct SupervisedLimits {
 
 /// It runs under a supervisor, a process of ours that kills all its descendants, those that moved
 /// to sessions of their own included, when it ends, when this object goes, or when this process
-/// dies, however that comes about.
+/// dies, however that comes about. The supervisor has one itself, in case it is killed.
 class SupervisedProgram {
  public:
   /// `command` is read by /bin/sh, which appends `arguments` to it: "python3 'my solver.py'". Its

@@ -267,6 +267,14 @@ TEST_CASE("words for a shell") {
 
 namespace {
 
+/// The only child of a process.
+pid_t child_of(pid_t process) {
+  const std::string number = std::to_string(process);
+  pid_t child = 0;
+  std::ifstream("/proc/" + number + "/task/" + number + "/children") >> child;
+  return child;
+}
+
 SupervisedProgram program(const std::string& command) {
   return SupervisedProgram("sh -c '" + command + "'", {"sh"}, {});
 }
@@ -356,6 +364,18 @@ TEST_CASE("What a program forks ends with it") {
     CHECK(ends(child));
     CHECK(ends(daemon));
   }
+  for (const bool inner : {false, true})
+    DYNAMIC_SECTION("when a supervisor is killed, the inner one: " << inner) {
+      auto forking = program(forks + "; sleep 1000");
+      CHECK(runs(child));
+      CHECK(runs(daemon));
+      const pid_t outer = child_of(getpid());
+      kill(inner ? child_of(outer) : outer, SIGKILL);
+      CHECK(ends(child));
+      CHECK(ends(daemon));
+      REQUIRE(forking.wait(20.0));
+      CHECK(forking.status() == 128 + SIGKILL);
+    }
   CHECK_FALSE(runs(child));
   CHECK_FALSE(runs(daemon));
 }
