@@ -55,10 +55,12 @@ void OverlapCorrection::find_targets(WorkerTeam* team, const ProblemAssembler& a
   const auto overlaps = [&](const ContactPoint& c) { return c.gap < tolerated; };
   if (!spec_.enabled || std::ranges::none_of(contacts, overlaps)) return;
   rows_.resize(problem.contact_count());
+  const Eigen::VectorXd& imposed = assembler.imposed();
   run_ranges(team, problem.contact_count(), /*together=*/1024, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       const ContactPoint& contact = contacts[assembler.detected()[c]];
-      const double next_gap = contact.gap + h * normal_velocity(problem, c, v);
+      const double walls = imposed.size() > 0 ? imposed[problem.row_begin[c]] : 0.0;
+      const double next_gap = contact.gap + h * (normal_velocity(problem, c, v) + walls);
       // a fraction of the overlap goes; a point that is open or within the slop may close to the
       // slop, no further
       const double wanted =

@@ -37,8 +37,8 @@ class TimeStepper {
   /// and load the record reports (-1: none). Throws UnknownSolver, MissingSolver.
   TimeStepper(const MechanicalSystem& system, const Scene& scene, int driven_wall);
 
-  /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite; it is
-  /// then left within the step.
+  /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite, and
+  /// Error where a body spins too fast for h; it is then left within the step.
   StepRecord step(MotionState& state, StepMemory& memory);
 
   /// The problem solved last and its solution, for capture and export. StepMemory has the contacts
@@ -96,7 +96,7 @@ class TimeStepper {
 
 /// Angular velocity after a free flight of h, torque-free: implicit mid-point rule of Euler's
 /// equations in the body frame, which conserves energy and |angular momentum| exactly. `inertia`
-/// principal [kg m^2], `spin` body frame [rad/s].
+/// principal [kg m^2], `spin` body frame [rad/s]. NaN where h |spin| is above a thousand.
 Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h);
 
 }  // namespace ballast

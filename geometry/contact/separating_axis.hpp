@@ -8,6 +8,7 @@
 // pair apart it is positive, and the distance when the nearest points lie inside the facet's two
 // features.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -32,8 +33,12 @@ struct PairFrame {
 
   const BodyBounds* bounds[2];
   RelativePose other[2];  ///< other[i]: the other body's pose in the frame of body i
-  /// The length that rounding errors and tolerances scale with [m].
-  double size() const { return bounds[0]->circumradius + bounds[1]->circumradius; }
+  /// The length that rounding errors and tolerances scale with [m]: of the bodies, or of the
+  /// distance to which their coordinates are rounded where they are far apart.
+  double size() const {
+    return std::max(bounds[0]->circumradius + bounds[1]->circumradius,
+                    other[0].position.norm() / 16.0);
+  }
 };
 
 /// A PairFrame with the shapes' tables.

@@ -103,9 +103,9 @@ BALLAST_IN_LOOP double eigenvalue(double nn, double tn, double sn, double tt, do
   for (int step = 0; step < 2; ++step)
     w -= (w * w * (3.0 + 2.0 * s * w) - 1.0) / (6.0 * w * (1.0 + s * w));
   const double full = mean + spread * (1.0 + 2.0 * s * w);
-  // A diagonal block: the fractions above are 0 / 0 where its entries are equal.
+  // A diagonal block, or nearly one: the fractions above are 0 / 0 where its entries are equal.
   const double two = nn < tt ? tt : nn, three = two < ss ? ss : two;
-  return off == 0.0 ? three : full;
+  return off == 0.0 || square * spread == 0.0 ? three : full;
 }
 
 BALLAST_FOR_EACH_CPU void find_scales(JudgeBlock& b, int places) {

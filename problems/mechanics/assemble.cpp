@@ -185,6 +185,7 @@ void ProblemAssembler::write_rows(const StepInput& step) {
 void ProblemAssembler::write_bias(const StepInput& step) {
   DynamicsForm& dynamics = problem_.dynamics;
   imposed_part(step.contacts, step.end_time, dynamics.bias);
+  if (some_motion_is_imposed_) imposed_ = dynamics.bias;
   // Without restitution an open point may close its gap within the step: u_N + gap / h >= 0.
   for_contacts([&](int c) {
     if (restitution_.empty() || restitution_[c] == 0.0)
@@ -213,7 +214,12 @@ void ProblemAssembler::write_bias(const StepInput& step) {
 /// Zero of what moves freely or not at all.
 Vec3 ProblemAssembler::imposed_velocity(int body, const Vec3& place, double time) const {
   const RigidBody& b = system_.bodies[body];
-  return b.imposed ? b.imposed->motion.velocity_at(time, place) : Vec3::Zero();
+  if (!b.imposed) return Vec3::Zero();
+  const ImposedMotion& motion = b.imposed->motion;
+  if (b.is_wall() || !system_.period.repeats()) return motion.velocity_at(time, place);
+  // The motion's centre is not wrapped into the period, the place is.
+  const Vec3 centre = motion.pose_at(time, b.imposed->start).position;
+  return motion.velocity_at(time, centre + system_.period.nearest(place - centre));
 }
 
 void ProblemAssembler::imposed_part(std::span<const ContactPoint> contacts, double time,

@@ -65,6 +65,9 @@ class ProblemAssembler {
   std::span<const double> rebound() const { return rebound_; }
   std::span<const double> restitution() const { return restitution_; }
 
+  /// Of each row of the problem assembled last what imposed motions make of its velocity at the
+  /// step's end [m/s]; empty where nothing is imposed.
+  const Eigen::VectorXd& imposed() const { return imposed_; }
   /// What imposed motions at that time add to r . u [J].
   double imposed_power(std::span<const ContactPoint> contacts, double time, const Impulses& r);
 
@@ -110,7 +113,7 @@ class ProblemAssembler {
   std::vector<Vec3> first_tangents_;  // T1 of the contacts assembled last
   std::vector<int> detected_;
   FrictionProblem problem_;
-  Eigen::VectorXd v_before_, u_before_;
+  Eigen::VectorXd v_before_, u_before_, imposed_;
   std::vector<double> restitution_, rebound_;
 };
 

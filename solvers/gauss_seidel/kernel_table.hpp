@@ -46,9 +46,11 @@ BALLAST_INLINE V largest_eigenvalue_lanes(V nn, V tn, V sn, V tt, V st, V ss) {
   V w = V::all(0.57729) + s * (V::all(-0.10927) + s * (V::all(0.04318) - 0.01123 * s));
   for (int step = 0; step < 2; ++step)
     w = w - (w * w * (V::all(3.0) + 2.0 * s * w) - one) / (6.0 * w * (one + s * w));
-  // A diagonal block: the fractions above are 0 / 0 where its entries are equal.
+  // A diagonal block, or nearly one: the fractions above are 0 / 0 where its entries are equal.
   const V two = select(less(nn, tt), tt, nn), three = select(less(two, ss), ss, two);
-  return select(less(zero, off), mean + spread * (one + 2.0 * s * w), three);
+  const auto turned =
+      static_cast<typename V::Mask>(less(zero, off) & differs(square * spread, zero));
+  return select(turned, mean + spread * (one + 2.0 * s * w), three);
 }
 
 /// See make_principal in solvers/parts/one_contact.cpp.

@@ -118,6 +118,31 @@ TEST_CASE("the overlap correction lifts a sunken cube without giving it velocity
   }
 }
 
+TEST_CASE("on a floor that is moved the correction is that of the floor at rest") {
+  for (const double speed : {-0.1, 0.0, 0.1}) {
+    Scene scene = empty_scene();
+    scene.walls.push_back(floor_at_zero(0.4));
+    scene.walls.back().motion = WallMotion::prescribed;
+    ImposedMotion motion;
+    motion.shift.rate = Vec3(0, 0, speed);
+    scene.walls.back().imposed = std::make_shared<const ImposedMotion>(motion);
+    scene.bodies.push_back(cube("body", 0.1, 2.0, Vec3(0, 0, 0.05 - overlap)));
+    scene.bodies.back().velocity = Vec3(0, 0, speed);
+    scene.solver.tolerance = 1e-9;
+    scene.solver.max_iterations = 5000;
+    MotionState state;
+    const MechanicalSystem system = make_system(scene, state);
+    TimeStepper stepper(system, scene, -1);
+    StepMemory memory;
+    for (int k = 0; k < 100; ++k) stepper.step(state, memory);
+    const double floor = speed * state.time;
+    INFO("floor's speed " << speed);
+    CHECK(state.velocity[0].z() == Approx(speed).margin(1e-5));
+    CHECK(state.pose[0].position.z() - 0.05 - floor ==
+          Approx(-scene.correction.slop).margin(0.5 * scene.correction.slop));
+  }
+}
+
 TEST_CASE("the overlap correction does not move a driven wall") {
   Scene scene = empty_scene();
   scene.gravity.setZero();

@@ -32,6 +32,46 @@ TEST_CASE("the intermediate axis flips over (Dzhanibekov), to second order in h"
   CHECK(coarse / fine == Approx(4.0).margin(0.1));
 }
 
+TEST_CASE("a force that closes a gap within a step is met by the floor") {
+  Scene scene = empty_scene();
+  scene.walls.push_back(floor_at_zero(0.4));
+  scene.bodies.push_back(cube("pressed", 0.1, 1.0, Vec3(0, 0, 0.05 + 1e-3)));
+  scene.bodies[0].force.constant = Vec3(0, 0, -1e4);
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, scene, -1);
+  StepMemory memory;
+  stepper.step(state, memory);
+  CHECK(stepper.problem().contact_count() > 0);
+  CHECK(state.pose[0].position.z() > 0.05 - 1e-6);
+}
+
+TEST_CASE("however far a body turns within a step, energy and angular momentum are kept") {
+  const Vec3 inertia(1.0, 2.0, 2.5);
+  for (const double radians : {0.5, 2.0, 3.0, 30.0, 300.0}) {
+    const Vec3 spin = radians * Vec3(0.3, 0.9, 0.3), end = free_spin(inertia, spin, 1.0);
+    INFO(radians << " radians");
+    CHECK(end.dot(inertia.cwiseProduct(end)) ==
+          Approx(spin.dot(inertia.cwiseProduct(spin))).epsilon(1e-9));
+    CHECK(inertia.cwiseProduct(end).norm() ==
+          Approx(inertia.cwiseProduct(spin).norm()).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a body that spins too fast for the step ends the run by its name") {
+  Scene scene = empty_scene();
+  scene.bodies.push_back(cube("top", 0.1, 2.0, Vec3(0, 0, 10)));
+  scene.bodies[0].inertia = Vec3(1, 2, 2.5);
+  scene.bodies[0].spin = Vec3(1e6, 2e6, 2e6);
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, scene, -1);
+  StepMemory memory;
+  CHECK_THROWS_WITH(stepper.step(state, memory),
+                    Catch::Contains("body 0 (top) turns by 3e+03 radians in a step") &&
+                        Catch::Contains("scene.step"));
+}
+
 TEST_CASE("impulses that are not finite end the run by the solver's name, not later by a pose's") {
   SolverRun run;
   run.solved.impulses = Impulses::Ones(3);

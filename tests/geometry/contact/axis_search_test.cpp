@@ -115,6 +115,26 @@ TEST_CASE("outcome and axis do not depend on the hint") {
   CHECK(by_hint > 1000);
 }
 
+TEST_CASE("far apart, where coordinates are rounded to more than the bodies' tolerances, too") {
+  AxisSearch search(collision_pool());
+  Random random(5);
+  int differ = 0;
+  for (int i = 0; i < 4000; ++i) {
+    PairCase c = random_case(placements[i % std::size(placements)], random);
+    c.b_in_a.position = random_direction(random) * c.size() * random.log_uniform(1e2, 1e6);
+    AxisFeature best;
+    SeparatingAxis reference;
+    search.find(c.pair(), 1e9, best, reference);
+    for (int k = 0; k < 6; ++k) {
+      AxisFeature hint = random_feature(c.pair(), random);
+      SeparatingAxis axis;
+      search.find(c.pair(), 1e9, hint, axis);
+      differ += !same_bits(axis, reference);
+    }
+  }
+  CHECK(differ == 0);
+}
+
 TEST_CASE("a search that stops at the alert distance agrees with one that does not") {
   AxisSearch search(collision_pool());
   Random random(3);

@@ -234,6 +234,11 @@ TEST_CASE("the largest eigenvalue agrees with an iterative solver") {
     if (k % 3 == 0) REQUIRE(std::abs(largest_eigenvalue(block) - expected) <= 1e-10 * expected);
   }
   CHECK(largest_eigenvalue(Eigen::Matrix3d::Zero()) == 0.0);
+  for (const double hair : {1e-200, 1e-150, 1e-120, 1e-105, 1e-60}) {
+    Eigen::Matrix3d nearly = Eigen::Matrix3d::Identity();
+    nearly(0, 1) = nearly(1, 0) = hair;
+    CHECK(largest_eigenvalue(nearly) == 1.0);
+  }
   CHECK(largest_eigenvalue(Eigen::Vector3d(3, 0, 0).asDiagonal().toDenseMatrix()) == 3.0);
   CHECK(largest_eigenvalue(Eigen::Vector3d(1, 5, 5).asDiagonal().toDenseMatrix()) == 5.0);
 }

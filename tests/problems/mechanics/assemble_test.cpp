@@ -131,6 +131,30 @@ TEST_CASE("restitution leaves open points out and turns the approach round") {
           Approx(0.5 * std::min(0.0, u[problem.row_begin[c]])).margin(1e-14));
 }
 
+TEST_CASE("in a world that repeats itself a turning body moves alike wherever it is met") {
+  MechanicalSystem system;
+  MotionState state;
+  system.period.vector = Vec3(1, 0, 0);
+  system.friction = 0.4;
+  ImposedMotion turning;
+  turning.turn.rate = 2.0;
+  BodySpec plate, cube;
+  plate.shape = cube.shape = std::make_shared<const Polyhedron>(make_box(Vec3(0.1, 0.1, 0.1)));
+  cube.inertia = Vec3(1, 1, 1);
+  plate.imposed = turning;
+  add_body(system, state, plate, 1.0);
+  add_body(system, state, cube, 1.0);
+  Eigen::VectorXd v;
+  ProblemAssembler assembler(system);
+  assembler.pack(state, v);
+  for (const double period : {-2.0, -1.0, 0.0, 1.0}) {
+    const std::vector<ContactPoint> contacts = {
+        {0, 1, 0, Vec3::UnitZ(), Vec3(0.04 + period, 0.03, 0.05), 0.0}};
+    const FrictionProblem& problem = assembler.assemble({state, contacts, v, 1e-3, 0.0});
+    CHECK(problem.dynamics.bias.norm() == Approx(2.0 * 0.05).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("world impulses and rows are inverse to each other in the frame") {
   const Fixture f;
   ProblemAssembler assembler(f.system);
