@@ -142,12 +142,13 @@ void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> k
       return;
   }
   if (!is_folder(folder)) return;
-  // Who is killed before his first file is whole leaves folders, and a file beside it.
+  // Who is killed before his first file is whole leaves folders, a file beside it and a lock.
   constexpr auto skipping = fs::directory_options::skip_permission_denied;
   const bool has_files = std::any_of(fs::recursive_directory_iterator(folder, skipping),
                                      fs::recursive_directory_iterator(), [](const auto& entry) {
                                        return !fs::is_directory(entry.symlink_status()) &&
-                                              entry.path().extension() != ".tmp";
+                                              entry.path().extension() != ".tmp" &&
+                                              entry.path().extension() != ".lock";
                                      });
   if (!has_files) return;
   throw Error(folder.string() +
@@ -155,6 +156,8 @@ void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> k
 }
 
 namespace {
+
+const std::string signature = "process ";  // by which a lock is known
 
 /// The file under that name is still the one that was opened: its last holder may have removed it
 /// meanwhile.
@@ -178,28 +181,35 @@ FileLock::FileLock(fs::path file, const Patience& patience) : file_(std::move(fi
   // Signed only for whoever is turned away: that it cannot be written harms nobody.
   char host[65] = "";
   gethostname(host, sizeof host - 1);
-  const std::string text = "process " + std::to_string(getpid()) + " on " + host;
+  const std::string text = signature + std::to_string(getpid()) + " on " + host;
   if (ftruncate(descriptor_, 0) != 0 || pwrite(descriptor_, text.data(), text.size(), 0) < 0)
     return;
 }
 
 bool FileLock::try_once() {
-  const int descriptor = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const int descriptor = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) throw_file_error(file_, "make the lock");
   const bool is_locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-  if (is_locked && is_current(descriptor, file_)) {
-    descriptor_ = descriptor;
-    return true;
-  }
   // Somebody else has it: read who signed it. Or it was unlinked meanwhile: then try again.
   const int error = is_locked ? EWOULDBLOCK : errno;
   char text[160];
   const ssize_t length = pread(descriptor, text, sizeof text, 0);
-  if (length > 0) holder_.assign(text, static_cast<size_t>(length));
+  const std::string_view words(text, static_cast<size_t>(std::max<ssize_t>(length, 0)));
+  const bool is_ours = words.empty() || words.starts_with(signature);
+  if (is_ours && is_locked && is_current(descriptor, file_)) {
+    descriptor_ = descriptor;
+    return true;
+  }
   close(descriptor);
+  if (!is_ours) throw Error(file_.string() + ": cannot make the lock: it is somebody's file");
+  if (!words.empty()) holder_ = words;
   errno = error;
   if (error != EWOULDBLOCK && error != EINTR) throw_file_error(file_, "lock");
   return false;
+}
+
+void FileLock::require_held() const {
+  if (!is_held()) throw Error(file_.parent_path().string() + ": " + holder_ + " is working there");
 }
 
 FileLock::~FileLock() {

@@ -96,13 +96,16 @@ class FileLock {
   using Patience = std::function<bool(double seconds_waited)>;
 
   /// Waits until the lock is free; `patience` returning false gives up: is_held() is then false.
-  /// The folder must be there. Throws Error when the file cannot be made or locked.
+  /// The folder must be there. Throws Error when the file cannot be made or locked, or is a link or
+  /// somebody's.
   FileLock(std::filesystem::path file, const Patience& patience);
   ~FileLock();
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
 
   bool is_held() const { return descriptor_ >= 0; }
+  /// Throws Error "<folder>: <holder> is working there" unless it is held.
+  void require_held() const;
   /// Who holds the lock that could not be had: "process 123 on host", as far as the file says.
   const std::string& holder() const { return holder_; }
 

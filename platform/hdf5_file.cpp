@@ -239,7 +239,8 @@ void Hdf5Reader::require_stored(const std::string& name, const Hdf5Id& dataset,
 }
 
 template <typename Value>
-std::vector<Value> Hdf5Reader::read(const std::string& name) const {
+std::vector<Value> Hdf5Reader::read(const std::string& name,
+                                    std::optional<std::size_t> expected) const {
   // What is stored may have any width or byte order: HDF5 converts it while reading.
   const hid_t type = std::is_same_v<Value, double> ? H5T_NATIVE_DOUBLE
                      : std::is_same_v<Value, int>  ? H5T_NATIVE_INT
@@ -250,6 +251,9 @@ std::vector<Value> Hdf5Reader::read(const std::string& name) const {
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail(name + ": does not hold numbers");
   const hssize_t size = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
   if (size < 0) fail(name + ": has no readable extent");
+  if (expected && static_cast<std::size_t>(size) != *expected)
+    fail(name + " has " + std::to_string(size) + " entries, must have " +
+         std::to_string(*expected));
   require_stored(name, dataset, static_cast<unsigned long long>(size));
   std::vector<Value> values(static_cast<size_t>(size));
   if (size > 0 && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
@@ -257,16 +261,12 @@ std::vector<Value> Hdf5Reader::read(const std::string& name) const {
   return values;
 }
 
-template std::vector<double> Hdf5Reader::read(const std::string&) const;
-template std::vector<int> Hdf5Reader::read(const std::string&) const;
-template std::vector<std::uint64_t> Hdf5Reader::read(const std::string&) const;
+template std::vector<double> Hdf5Reader::read(const std::string&, std::optional<size_t>) const;
+template std::vector<int> Hdf5Reader::read(const std::string&, std::optional<size_t>) const;
+template std::vector<std::uint64_t> Hdf5Reader::read(const std::string&,
+                                                     std::optional<size_t>) const;
 
-int Hdf5Reader::read_int(const std::string& name) const {
-  const std::vector<int> values = read<int>(name);
-  if (values.size() != 1)
-    fail(name + " has " + std::to_string(values.size()) + " entries, must have 1");
-  return values[0];
-}
+int Hdf5Reader::read_int(const std::string& name) const { return read<int>(name, 1)[0]; }
 
 std::string Hdf5Reader::read_text(const std::string& name) const {
   const Hdf5Id dataset = open(name), type(H5Dget_type(dataset), H5Tclose);

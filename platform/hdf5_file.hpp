@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -61,9 +62,11 @@ class Hdf5Reader : public Hdf5File {
 
   bool has(const std::string& name) const;
   Hdf5Shape shape(const std::string& name) const;
-  /// All entries of a dataset of numbers: Value is double, int or std::uint64_t.
+  /// All entries of a dataset of numbers: Value is double, int or std::uint64_t. Where there are
+  /// others than `expected`, it is refused before it takes memory.
   template <typename Value>
-  std::vector<Value> read(const std::string& name) const;
+  std::vector<Value> read(const std::string& name,
+                          std::optional<std::size_t> expected = std::nullopt) const;
   /// The only entry of a dataset.
   int read_int(const std::string& name) const;
   /// As Hdf5Writer::add_text left it.

@@ -347,8 +347,7 @@ ExitCode run_plan(const Plan& plan, const PlanOptions& options) {
   const InterruptGuard guard;
   make_folders(options.results);
   const FileLock lock(options.results / "plan.lock", briefly);
-  if (!lock.is_held())
-    throw Error(options.results.string() + ": " + lock.holder() + " is running a plan there");
+  lock.require_held();
   return Engine(plan, options, make_tasks(options.results, chosen)).execute();
 }
 

@@ -39,13 +39,16 @@ struct SideReader {
 
   template <typename Value>
   void operator()(const char* name, std::vector<Value>& to, std::size_t size) const {
-    to = sized(file, path_of(name), file.read<Value>(path_of(name)), size);
+    to = file.read<Value>(path_of(name), size);
+  }
+  void operator()(const char* name, std::vector<double>& to, std::size_t size) const {
+    to = read_vector(file, path_of(name), size);
   }
   void operator()(const char* name, Eigen::VectorXd& to, std::size_t size) const {
-    to = as_eigen(sized(file, path_of(name), file.read<double>(path_of(name)), size));
+    to = as_eigen(read_vector(file, path_of(name), size));
   }
   void operator()(const char* name, double& to) const {
-    to = sized(file, path_of(name), file.read<double>(path_of(name)), 1)[0];
+    to = file.read<double>(path_of(name), 1)[0];
   }
   void operator()(const char* name, int& to) const { to = file.read_int(path_of(name)); }
   void operator()(const char* name, std::string& to) const { to = file.read_text(path_of(name)); }

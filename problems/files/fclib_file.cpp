@@ -187,17 +187,6 @@ namespace {
 /// `nz` says how a matrix is stored: the number of triplets, or one of these.
 constexpr int compressed_columns = -1, compressed_rows = -2;
 
-/// So many finite numbers; of any count where `size` is negative.
-std::vector<double> read_vector(const Hdf5Reader& file, const std::string& path, int size = -1) {
-  std::vector<double> values = file.read<double>(path);
-  if (size >= 0) values = sized(file, path, std::move(values), static_cast<std::size_t>(size));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]))
-      file.fail(path + "[" + std::to_string(i) + "] = " + std::to_string(values[i]) +
-                " is not finite");
-  return values;
-}
-
 /// One matrix group, which must have this size. nzmax may exceed the datasets' length, which may
 /// exceed the entries: p, or nz, decides.
 template <typename Matrix>
@@ -209,13 +198,14 @@ Matrix read_matrix(const Hdf5Reader& file, const std::string& group, int rows, i
   const int nz = file.read_int(group + "/nz");
   if (nz < compressed_rows)
     file.fail(group + "/nz = " + std::to_string(nz) + " is no known storage");
-  const std::vector<int> p = file.read<int>(group + "/p"), i = file.read<int>(group + "/i");
-  const std::vector<double> x = file.read<double>(group + "/x");
-
   const bool by_rows = nz == compressed_rows;
   const int lines = nz >= 0 ? 0 : by_rows ? rows : columns;
+  std::optional<std::size_t> ends;
+  if (nz < 0) ends = static_cast<std::size_t>(lines) + 1;
+  const std::vector<int> p = file.read<int>(group + "/p", ends), i = file.read<int>(group + "/i");
+  const std::vector<double> x = file.read<double>(group + "/x");
+
   if (nz < 0) {
-    sized(file, group + "/p", std::span(p), static_cast<std::size_t>(lines) + 1);
     if (p[0] != 0) file.fail(group + "/p[0] = " + std::to_string(p[0]) + ", must be 0");
     for (int line = 0; line < lines; ++line)
       if (p[line + 1] < p[line])
@@ -380,6 +370,16 @@ void write_solution(const std::filesystem::path& path, const FrictionProblem& pr
     file.add("/ballast_answer/" + name, std::vector<double>{value});
   for (const auto& [name, text] : solution.texts) file.add_text("/ballast_answer/" + name, text);
   file.commit();
+}
+
+std::vector<double> read_vector(const Hdf5Reader& file, const std::string& path,
+                                std::optional<std::size_t> size) {
+  std::vector<double> values = file.read<double>(path, size);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      file.fail(path + "[" + std::to_string(i) + "] = " + std::to_string(values[i]) +
+                " is not finite");
+  return values;
 }
 
 Impulses read_impulses(const Hdf5Reader& file, const std::string& dataset,

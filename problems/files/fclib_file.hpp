@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,13 +93,8 @@ Impulses read_impulses(const Hdf5Reader& file, const std::string& dataset,
 /// The same of /solution/r, whoever wrote the file.
 Impulses read_solution(const std::filesystem::path& file, const FrictionProblem& problem);
 
-/// The values of a dataset, of which there must be so many. Throws Error.
-template <typename Values>
-Values sized(const Hdf5Reader& file, const std::string& dataset, Values values, std::size_t size) {
-  if (values.size() != size)
-    file.fail(dataset + " has " + std::to_string(values.size()) + " entries, must have " +
-              std::to_string(size));
-  return values;
-}
+/// The finite numbers of a dataset, of which there must be `size` where it is given. Throws Error.
+std::vector<double> read_vector(const Hdf5Reader& file, const std::string& dataset,
+                                std::optional<std::size_t> size = std::nullopt);
 
 }  // namespace ballast

@@ -244,6 +244,16 @@ TEST_CASE("one holder at a time, who is named to the others; the lock's file goe
   CHECK(FileLock(file, at_once).is_held());
 }
 
+TEST_CASE("a file or link of somebody's is no lock, and stays") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("run.lock", "notes"), link = folder.path() / "link.lock";
+  CHECK_THROWS_WITH(FileLock(file, at_once), Catch::StartsWith(file.string()));
+  fs::create_symlink(file, link);
+  CHECK_THROWS_WITH(FileLock(link, at_once), Catch::StartsWith(link.string()));
+  CHECK(read_whole_file(file) == "notes");
+  CHECK(fs::is_symlink(link));
+}
+
 TEST_CASE("patience is asked with the seconds waited, and waiting ends when the holder goes") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "lock";

@@ -150,6 +150,9 @@ TEST_CASE("what is written is read back, plain or compressed") {
     CHECK(file.read<std::uint64_t>("group/keys") ==
           std::vector<std::uint64_t>{~std::uint64_t{0}, 3});
     CHECK(file.read<double>("group/empty").empty());
+    CHECK(file.read<double>("group/doubles", 3).size() == 3);
+    CHECK_THROWS_WITH(file.read<double>("group/doubles", 4),
+                      Catch::EndsWith("group/doubles has 3 entries, must have 4"));
     CHECK(file.read_texts("group/texts") == std::vector<std::string>{"", "one", "two words"});
     CHECK(file.read_text("/group/text") == "a text");
     CHECK(file.shape("group/slices") == Hdf5Shape{sample_rows, 2, 3});

@@ -155,7 +155,7 @@ TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else runs
     usleep(10'000);
   REQUIRE(fs::exists(run / "log" / "steps.bin"));
   check_failure(run_plan_file(file, results), ExitCode::failure,
-                {results.string(), "is running a plan there"});
+                {results.string(), "is working there"});
   CHECK_FALSE(fs::exists(run / "checkpoint.bin"));
   long_plan->send(SIGTERM);
   REQUIRE(long_plan->ends_within(60.0));

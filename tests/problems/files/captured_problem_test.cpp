@@ -127,6 +127,9 @@ TEST_CASE("what does not fit the problem is named") {
         "/ballast/body_a, body_b: no such body: 9");
   CHECK(broken("/ballast/body_a", std::vector<int>{2147483647, 0, 0, 0, 0, 0}) ==
         "/ballast/body_a, body_b: no such body: 2147483647");
+  std::vector<double> start(as_vector(sample().start));
+  start[1] = std::nan("");
+  CHECK(broken("/ballast/start", start) == "/ballast/start[1] = nan is not finite");
   write_captured(file, sample());
   remove(file, "/ballast/phase");
   CHECK(complaint(file, read_captured) == "/ballast/phase: no such dataset");

@@ -55,7 +55,7 @@ TEST_CASE("each broken local file is refused with one line that says where") {
       {"/fclib_local/W/p[3] = -4 decreases", entry("/fclib_local/W/p", 3, -4)},
       {"/fclib_local/W/x: claims 2000000000 entries, of which 0 bytes are stored",
        [](const fs::path& f) { claim(f, "/fclib_local/W/x", 2000000000); }},
-      {"/fclib_local/vectors/q: claims 2000000000 entries",
+      {"/fclib_local/vectors/q has 2000000000 entries, must have 18",
        [](const fs::path& f) { claim(f, "/fclib_local/vectors/q", 2000000000); }},
       {"/fclib_local/W/x: does not hold numbers",
        [](const fs::path& f) {
