@@ -36,8 +36,10 @@ ExitCode collect(const CollectOptions& options) {
   const std::filesystem::path& folder = options.made.folder;
   if (options.part != "small" && options.part != "all")
     throw UsageError("compare collect: --part " + options.part + ": expected small or all");
-  require_own_folder(folder, {"runs", "packings", "problems"});
+  require_own_folder(folder, {{"collection.toml", "[[family]]"}});
   create_folder(folder / "runs");
+  const FileLock lock(folder / "collection.lock", briefly);
+  lock.require_held();
   // What the collection was made from stays with it.
   const std::filesystem::path kept = folder / "collection.toml";
   if (options.list.empty()) write_whole_file(kept, collection_list());
@@ -208,11 +210,11 @@ ExitCode compare_live(CompareRequest& options) {
                 << trajectory.ended << std::endl;
     return !InterruptGuard::requested();
   };
-  const LiveComparison comparison = run_live(live, told);
-  if (InterruptGuard::requested()) throw Error(interrupted);
   Manifest manifest("compare --live " + live.scene, {options.comparison.command}, binary_key());
   manifest.summary("blas", loaded_blas());
-  manifest.write(live.folder / "manifest.json");
+  manifest.write(live.folder / "manifest.json");  // by which the folder is known
+  const LiveComparison comparison = run_live(live, told);
+  if (InterruptGuard::requested()) throw Error(interrupted);
   write_live_page(live.folder, comparison);
   if (options.is_quiet) return ExitCode::ok;
   std::cout << "\nresults in " << live.folder.string()
@@ -222,16 +224,32 @@ ExitCode compare_live(CompareRequest& options) {
   return ExitCode::ok;
 }
 
+/// Throws Error with the reasons of the cases that could not be read.
+void require_readable(std::span<const CompareRow> rows, size_t cases) {
+  std::string reasons;
+  size_t unreadable = 0;
+  for (const CompareRow& row : rows) {
+    if (row.verdict != Verdict::unreadable) continue;
+    ++unreadable;
+    add_to_list(reasons, row.note);
+  }
+  if (unreadable > 0)
+    throw Error(printed("compare: %zu of %zu cases could not be read: ", unreadable, cases) +
+                reasons);
+}
+
 ExitCode compare(CompareRequest& options) {
   if (options.cases.empty() == options.live.scene.empty())
     throw UsageError(options.cases.empty() ? "compare: expected cases, or --live SCENE"
                                            : "compare: --live SCENE: not with cases");
   if (options.comparison.tolerances.empty() && options.live.iterations.empty())
     throw UsageError("compare: --tolerances none: expected --live SCENE --iterations COUNT");
-  const std::filesystem::path& output = options.comparison.folder;
-  require_own_folder(output, {"rows", "trajectories", "start", "exact"});
+  const std::filesystem::path output = options.comparison.folder;
+  require_own_folder(output, {{"manifest.json", "\"scene\": \"compare\""},
+                              {"manifest.json", "\"scene\": \"compare --live"}});
   if (!options.external.empty() && !options.live.scene.empty())
     throw UsageError("compare: --external: not with --live, whose solver works inside the step");
+  restart_with_one_algebra_thread();
   options.program_limits.memory_MB = options.comparison.limits.memory_MB;
   std::vector<ComparedSolver> programs;
   try {
@@ -242,15 +260,21 @@ ExitCode compare(CompareRequest& options) {
   for (ComparedSolver& program : programs) options.comparison.solvers.push_back(std::move(program));
   if (options.comparison.solvers.empty())
     throw UsageError("compare: --solvers none: expected a program that solves, --external");
-  restart_with_one_algebra_thread();
   options.comparison.command = own_command();
-  if (!options.live.scene.empty()) return compare_live(options);
+  // What names no case or scene makes no folder.
+  if (!options.live.scene.empty()) resolve_run(options.live.scene, options.live.overrides);
   const std::vector<CompareCase> cases = compare_cases(options.cases);
-  InterruptGuard guard;
+  create_folder(output);
+  const FileLock lock(output / "compare.lock", briefly);
+  lock.require_held();
+  if (!options.live.scene.empty()) return compare_live(options);
+  const InterruptGuard guard;
+  // The programs go, with their folders, before a closed pipe may end this one.
+  const CompareOptions comparison = std::exchange(options.comparison, {});
   const auto told = [&](const CompareRow& row, bool was_there, size_t done, size_t count) {
     return options.is_quiet ? !InterruptGuard::requested() : show(row, was_there, done, count);
   };
-  const std::vector<CompareRow> rows = run_comparison(cases, options.comparison, told);
+  const std::vector<CompareRow> rows = run_comparison(cases, comparison, told);
   if (InterruptGuard::requested()) throw Error(interrupted);
   if (options.report) write_compare_page(output, rows);
   if (!options.is_quiet)
@@ -260,16 +284,8 @@ ExitCode compare(CompareRequest& options) {
                                  : "")
               << "  results.csv   one row per solve; rows/*.json: the same with their histories\n"
               << "  manifest.json program, machine, BLAS, options" << std::endl;
-  std::string reasons;
-  size_t unreadable = 0;
-  for (const CompareRow& row : rows) {
-    if (row.verdict != Verdict::unreadable) continue;
-    ++unreadable;
-    add_to_list(reasons, row.note);
-  }
-  if (unreadable == 0) return ExitCode::ok;
-  throw Error(printed("compare: %zu of %zu cases could not be read: ", unreadable, cases.size()) +
-              reasons);
+  require_readable(rows, cases.size());
+  return ExitCode::ok;
 }
 
 std::vector<Word> live_words(LiveOptions& live) {

@@ -9,6 +9,7 @@
 #include "experiments/run/run.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
+#include "platform/error.hpp"
 #include "platform/hdf5_file.hpp"
 #include "platform/interrupt.hpp"
 #include "platform/random.hpp"
@@ -100,7 +101,6 @@ class Collection {
   static void make_problems(const CollectedRun& wanted, const fs::path& folder) {
     for (const CompareCase& made : compare_cases({wanted.made})) {
       const fs::path file = folder / made_name(wanted.family, made.name);
-      if (is_there(file)) continue;
       FrictionProblem problem = made.load().problem;
       if (!problem.has_dynamics || problem.contact_count() == 0) continue;
       problem.has_delassus = false;
@@ -114,6 +114,9 @@ class Collection {
   void keep(const std::string& family, const std::string& name, const fs::path& source) {
     const LoadedCase loaded = compare_cases({source.string()}).front().load();
     if (loaded.facts.contacts == 0 || !contents_.insert(loaded.facts.content).second) return;
+    if (!names_.insert(fs::path(family) / name).second)
+      throw Error("compare collect: family " + family + " has two problems of the name " + name +
+                  ": give one of them a family of its own");
     const bool held = is_held(loaded.facts.content), apart = held && options_.keeps_held_apart;
     const fs::path place = fs::path(family) / name,
                    file = options_.folder / (apart ? "held" : "problems") / place,
@@ -121,8 +124,10 @@ class Collection {
     create_folder(file.parent_path());
     fs::remove(other);  // where the part was kept otherwise before
     if (const std::string bytes = read_whole_file(source);
-        !is_there(file) || read_whole_file(file) != bytes)
+        !is_there(file) || read_whole_file(file) != bytes) {
+      fs::remove(reference_of(file));  // another problem's
       write_whole_file(file, bytes);
+    }
     note(place.string(), family, held, source, loaded);
     if (options_.reference_seconds > 0.0) refer(place.string(), file, loaded);
   }
@@ -184,6 +189,7 @@ class Collection {
   const CollectionOptions& options_;
   CsvWriter manifest_, references_;
   std::set<std::string> contents_;  ///< that were kept: each once
+  std::set<fs::path> names_;        ///< of their files, in their families
 };
 
 }  // namespace

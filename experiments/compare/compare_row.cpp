@@ -1,5 +1,6 @@
 #include "experiments/compare/compare_row.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -111,6 +112,21 @@ void take(const Json& json, Verdict& value) {
   value = by_name<Verdict>(verdict_names, json.get<std::string>(), "verdict");
 }
 
+/// Numbers that some row may have. Throws std::invalid_argument.
+void require_possible(const CompareRow& row) {
+  const auto require = [](bool is_possible, const char* column) {
+    if (!is_possible) throw std::invalid_argument(std::string(column) + " is out of range");
+  };
+  require(row.tolerance > 0.0, "tolerance");
+  require(row.max_seconds > 0.0, "max_seconds");
+  require(row.prepare_seconds >= 0.0, "prepare_seconds");
+  require(row.solve_seconds >= 0.0, "solve_seconds");
+  require(row.startup_seconds >= 0.0, "startup_seconds");
+  require(std::min({row.repeat, row.runs, row.iterations}) >= 0, "repeat, runs or iterations");
+  require(std::min({row.facts.contacts, row.facts.rows, row.facts.dofs}) >= 0,
+          "contacts, rows or dofs");
+}
+
 }  // namespace
 
 const char* name_of(Measure measure) { return measure_names[static_cast<size_t>(measure)]; }
@@ -163,10 +179,11 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file,
       take(h.at(2), point.error);
       row.history.push_back(point);
     }
+    require_possible(row);
     return row;
   } catch (const Json::exception&) {
     throw Error(file + ": is no row of a comparison: " + broken_json);
-  } catch (const std::invalid_argument& error) {  // of a name
+  } catch (const std::invalid_argument& error) {  // of a name or a number
     throw Error(file + ": is no row of a comparison: " + error.what());
   }
 }

@@ -49,8 +49,10 @@ class Comparison {
       : cases_(cases), options_(options), progress_(progress), binary_(binary_key()) {}
 
   std::vector<CompareRow> execute() {
-    create_folder(options_.folder / "rows");
     Manifest manifest("compare", {options_.command}, binary_);
+    manifest.summary("complete", "no: under way");
+    manifest.write(options_.folder / "manifest.json");  // by which the folder is known
+    create_folder(options_.folder / "rows");
     count_ = cases_.size() * options_.tolerances.size() * options_.starts.size() *
              options_.solvers.size() * static_cast<size_t>(options_.repeats);
     for (int repeat = 0; repeat < options_.repeats && goes_on_; ++repeat)
@@ -138,7 +140,7 @@ class Comparison {
   /// repeated.
   void attempt(const LoadedCase& loaded, const ComparedSolver& solver, CompareRow row) {
     const std::string who = row.case_name + '|' + row.solver + '|' + name_of(row.start);
-    const std::string identity = who + '|' + std::to_string(row.tolerance);
+    const std::string identity = who + '|' + printed("%.17g", row.tolerance);
     if (row.repeat > 0 && unsolved_.contains(identity)) return;
     row.key = key_of(row, solver);
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
@@ -150,18 +152,22 @@ class Comparison {
       else
         solve_case(solver, loaded, options_.limits, row);
       // an interrupt reaches the child as well: what it left is no result
-      if (!InterruptGuard::requested()) write_whole_file(file, to_json(row));
+      goes_on_ = !InterruptGuard::requested();
+      if (!goes_on_) return;
+      write_whole_file(file, to_json(row));
     }
     if (row.verdict != Verdict::solved) unsolved_.insert(identity);
     if (row.verdict == Verdict::timeout) late_.emplace(who, row);
     add(std::move(row), was_there);
   }
 
-  /// False: there is no file, or a damaged one.
+  /// False: there is no file, or a damaged one, or another row's.
   static bool take_stored(const fs::path& file, CompareRow& row) {
     if (!is_there(file)) return false;
     try {
-      row = compare_row_of_json(read_whole_file(file), file.string(), row);
+      CompareRow stored = compare_row_of_json(read_whole_file(file), file.string(), row);
+      if (stored.key != row.key) return false;
+      row = std::move(stored);
     } catch (const Error&) {
       return false;
     }

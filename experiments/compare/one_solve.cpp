@@ -62,6 +62,7 @@ void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const So
     row.history = std::move(run.solved.history);
     for (HistoryPoint& point : row.history) point.error /= loaded.facts.velocity_scale;
     account.solved = std::move(run.solved);
+    if (!run.failure.empty()) account.solved.impulses.resize(0);
   } while (account.solved.reason == StopReason::reached_tolerance && row.runs < limits.most_runs &&
            spent + row.seconds() < limits.warm_seconds);
 }
@@ -71,18 +72,22 @@ Account solve_here(const MakeSolver& make, const LoadedCase& loaded, const Solve
                    const CompareRow& row) {
   Account account{row, {}};
   account.row.verdict = Verdict::unsolved;
+  // Of an earlier run nothing counts.
+  const auto fail = [&](Verdict verdict, const char* note) {
+    account = {row, {}};
+    account.row.verdict = verdict;
+    account.row.note = note;
+  };
   try {
     drive_repeatedly(make, loaded, limits, account);
   } catch (const UnsupportedProblem& error) {
-    account.row.verdict = Verdict::unsupported;
-    account.row.note = error.what();
+    fail(Verdict::unsupported, error.what());
   } catch (const LostProcess& error) {
-    account.row.verdict = error.is_out_of_time ? Verdict::timeout : Verdict::crashed;
-    account.row.note = error.what();
+    fail(error.is_out_of_time ? Verdict::timeout : Verdict::crashed, error.what());
   } catch (const std::bad_alloc&) {
-    account.row.verdict = Verdict::out_of_memory;
+    fail(Verdict::out_of_memory, "");
   } catch (const std::exception& error) {
-    account.row.note = error.what();
+    fail(Verdict::unsolved, error.what());
   }
   return account;
 }
@@ -131,6 +136,7 @@ void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
 void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const SolveLimits& limits,
                 CompareRow& row) {
   if (!solver.external_key.empty()) {
+    static_cast<void>(solver.make());  // no folder for its files: no row says so, all ends
     const Stopwatch watch;
     Account account = solve_here(solver.make, loaded, limits, row);
     row = std::move(account.row);

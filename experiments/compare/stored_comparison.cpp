@@ -9,6 +9,7 @@
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
 
@@ -42,11 +43,16 @@ StoredComparison read_comparison(const fs::path& folder) {
     throw Error(folder.string() + ": no folder of a comparison: it has no rows");
   const Manifest manifest = Manifest::read(folder / "manifest.json");
   StoredComparison stored{folder, manifest.machine(), manifest.commit(), manifest.started(), {}};
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "rows"))
-    if (entry.path().extension() == ".json")
-      stored.rows.push_back(
-          compare_row_of_json(read_whole_file(entry.path()), entry.path().string()));
-  // A folder lists its files in any order.
+  // Files of other rows lie there, too: of older builds, and of other limits.
+  CsvReader table(folder / "results.csv");
+  const std::vector<std::string> columns = compare_columns();
+  while (table.next()) {
+    table.require_cells(columns.size());
+    const std::string& key = table.cells().back();
+    if (key.empty() || key == columns.back()) continue;  // a case that could not be read; the head
+    const fs::path file = folder / "rows" / (key + ".json");
+    stored.rows.push_back(compare_row_of_json(read_whole_file(file), file.string()));
+  }
   const auto place = [](const CompareRow& row) {
     return std::tie(row.case_name, row.solver, row.tolerance, row.start, row.repeat, row.key);
   };
@@ -95,7 +101,7 @@ std::vector<CompareRow> write_origins(const fs::path& folder,
                                       const std::string& command) {
   MergedComparison all = merged(comparisons);
   if (all.rows.empty()) throw Error("compare: the comparisons have no rows");
-  Manifest manifest("compare", {command}, "");
+  Manifest manifest("compare merge", {command}, "");
   for (const StoredComparison& c : comparisons) {
     const auto m = std::ranges::find(all.machines, c.machine) - all.machines.begin();
     manifest.summary(c.folder.string(), machine_name(static_cast<size_t>(m)) + ": " + c.machine +

@@ -34,7 +34,7 @@ void add_number(Hdf5Writer& file, const std::string& name, Number value) {
 }
 
 double read_number(const Hdf5Reader& file, const std::string& name, bool may_be_infinite = false) {
-  const double value = sized(file, name, file.read<double>(name), 1)[0];
+  const double value = file.read<double>(name, 1)[0];
   if (std::isnan(value) || (!may_be_infinite && std::isinf(value)))
     file.fail(name + " is not finite");
   return value;
@@ -47,13 +47,17 @@ void require_protocol(const Hdf5Reader& file, const std::string& group) {
 }
 
 std::vector<HistoryPoint> read_history(const Hdf5Reader& file) {
+  constexpr std::size_t most_points = 1'000'000;
   const std::string name = answered + "history";
   std::vector<HistoryPoint> history;
   if (!file.has(name)) return history;
-  const std::vector<double> values = file.read<double>(name);
-  if (values.size() % 3 != 0)
-    file.fail(name + " has " + std::to_string(values.size()) +
-              " entries, must have three per point: iteration, seconds, error");
+  std::size_t entries = 1;
+  for (const auto extent : file.shape(name)) entries *= extent;
+  if (entries % 3 != 0 || entries > 3 * most_points)
+    file.fail(
+        name + " has " + std::to_string(entries) +
+        " entries, must have three per point (iteration, seconds, error) of a million at most");
+  const std::vector<double> values = file.read<double>(name, entries);
   for (std::size_t k = 0; k + 2 < values.size(); k += 3) {
     if (!(values[k] >= 0.0 && values[k] < 2e9) || !(values[k + 1] >= 0.0) ||
         std::isnan(values[k + 2]))
@@ -63,26 +67,29 @@ std::vector<HistoryPoint> read_history(const Hdf5Reader& file) {
   return history;
 }
 
-/// A folder of our own that goes with this object. TMPDIR decides where: in memory files cost no
-/// wait for a disk.
-class WorkFolder {
+/// A name that goes with this object, with all that stands under it.
+class PassingPath {
  public:
-  WorkFolder() {
-    std::string name = (fs::temp_directory_path() / "ballast-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error(name + ": cannot be made: " + std::strerror(errno));
-    path_ = name;
-  }
-  ~WorkFolder() {
+  explicit PassingPath(fs::path path) : path_(std::move(path)) {}
+  ~PassingPath() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
   }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
+  PassingPath(const PassingPath&) = delete;
+  PassingPath& operator=(const PassingPath&) = delete;
   const fs::path& path() const { return path_; }
 
  private:
-  fs::path path_;
+  const fs::path path_;
 };
+
+/// A folder of our own. TMPDIR decides where: in memory files cost no wait for a disk.
+fs::path make_work_folder() {
+  const char* wanted = std::getenv("TMPDIR");
+  std::string name = (fs::path(wanted ? wanted : "/tmp") / "ballast-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw Error(name + ": cannot be made: " + std::strerror(errno));
+  return name;
+}
 
 /// One program, the requests to which are numbered.
 class ExternalProgram {
@@ -92,8 +99,9 @@ class ExternalProgram {
 
   ExternalAnswer ask(ExternalRequest& request) {
     const std::string number = std::to_string(++count_);
-    const fs::path problem = folder_.path() / ("problem" + number + ".hdf5"),
-                   answer = folder_.path() / ("answer" + number + ".hdf5");
+    const PassingPath problem_file(folder_.path() / ("problem" + number + ".hdf5")),
+        answer_file(folder_.path() / ("answer" + number + ".hdf5"));
+    const fs::path &problem = problem_file.path(), &answer = answer_file.path();
     request.id = count_;
     if (command_.is_served) see_to_served();
     write_request(problem, request);
@@ -103,10 +111,7 @@ class ExternalProgram {
       tell(problem, answer, seconds);
     else
       start(problem, answer, seconds + limits_.startup_seconds);
-    ExternalAnswer read = answer_in(answer, request);
-    fs::remove(problem);
-    fs::remove(answer);
-    return read;
+    return answer_in(answer, request);
   }
 
  private:
@@ -181,7 +186,7 @@ class ExternalProgram {
 
   const ExternalCommand command_;
   const ExternalLimits limits_;
-  const WorkFolder folder_;
+  const PassingPath folder_{make_work_folder()};
   int count_ = 0;
   std::unique_ptr<SupervisedProgram> served_;
 };

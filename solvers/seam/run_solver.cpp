@@ -90,13 +90,14 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
 SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, Impulses start,
                                 const Budget& left, const Budget& asked, bool prepares) {
   SolverRun run;
+  Stopwatch watch;
   try {
-    Stopwatch watch;
     if (prepares) solver.prepare(problem);
     if (prepares) run.prepare_seconds = watch.restart();
     run.solved = solver.solve(problem, std::move(start), left);
-    run.startup_seconds = run.solved.startup_seconds;
-    run.solve_seconds = watch.seconds() - run.startup_seconds;
+    const double all = watch.seconds();
+    run.startup_seconds = std::min(run.solved.startup_seconds, all);
+    run.solve_seconds = all - run.startup_seconds;
   } catch (const UnsupportedProblem&) {
     throw;
   } catch (const LostProcess&) {
@@ -105,6 +106,7 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
     run.solved = {};
     run.solved.reason = StopReason::numerical_failure;
     run.failure = error.what();
+    run.solve_seconds = watch.seconds();
   }
   // A backend that failed may return nothing; no impulses is then what is judged.
   if (run.solved.impulses.size() != problem.row_count()) {

@@ -86,8 +86,18 @@ TEST_CASE("what is wrong with the words of a collection is said in one line") {
                 ExitCode::failure, {bad, "either a scene or `made`"});
   check_failure(ballast_program({"compare", "ranking", output, "--output", output + "2"}),
                 ExitCode::failure, {"no folder of a comparison"});
+  const std::string alike =
+      folder
+          .write("alike.toml",
+                 "[[family]]\nname = \"k\"\nmade = ["
+                 "\"known:bodies=5,contacts=6,friction_min=0.1,friction_max=0.1\", "
+                 "\"known:bodies=5,contacts=6,friction_min=0.9,friction_max=0.9\"]\n")
+          .string();
+  check_failure(ballast_program({"compare", "collect", "--list", alike, "--exact-seconds", "0",
+                                 "--output", output}),
+                ExitCode::failure, {"family k has two problems of the name k-"});
   const fs::path theirs = folder.path() / "theirs";
-  create_folder(theirs);
+  create_folder(theirs / "problems");
   write_whole_file(theirs / "thesis.tex", "the user's own");
   check_failure(ballast_program({"compare", "collect", "--output", theirs.string()}),
                 ExitCode::failure, {theirs.string(), "holds files"});

@@ -139,8 +139,12 @@ TEST_CASE("a damaged row is made again, and a folder of somebody's is left alone
     CHECK_THAT(again.output, !Catch::Contains("was there"));
     CHECK_THAT(ballast_program(words).output, Catch::Contains("was there"));
   }
+  {
+    const FileLock lock(output / "compare.lock", briefly);
+    check_failure(ballast_program(words), ExitCode::failure, {output.string(), "is working there"});
+  }
   const std::filesystem::path theirs = folder.path() / "theirs";
-  create_folder(theirs);
+  create_folder(theirs / "rows");
   write_whole_file(theirs / "results.csv", "the user's own");
   check_failure(ballast_program(comparison(theirs, "pgs")), ExitCode::failure,
                 {theirs.string(), "holds files"});

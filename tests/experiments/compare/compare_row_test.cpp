@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "platform/error.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;
@@ -13,6 +14,7 @@ using namespace ballast;
 TEST_CASE("A row survives its file to the last bit") {
   CompareRow row;
   row.key = "k";
+  row.tolerance = 1e-6;
   row.case_name = "a, \"b\"";
   row.note = "line\nbreak";
   row.error = 0.1 + 0.2;
@@ -34,6 +36,29 @@ TEST_CASE("A row survives its file to the last bit") {
   CHECK((again.word == "a.dat" && to_json(again) == to_json(row)));
   CHECK_THROWS_WITH(compare_row_of_json("{}", "row.json"),
                     Catch::StartsWith("row.json: is no row"));
+}
+
+TEST_CASE("A row whose numbers no solve can have is refused with its column") {
+  CompareRow row;
+  row.tolerance = 1e-6;
+  CHECK_NOTHROW(compare_row_of_json(to_json(row), "row.json"));
+  const auto complaint = [](const CompareRow& wrong) {
+    try {
+      compare_row_of_json(to_json(wrong), "row.json");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CompareRow wrong = row;
+  wrong.solve_seconds = -5.0;
+  CHECK(complaint(wrong) == "row.json: is no row of a comparison: solve_seconds is out of range");
+  wrong = row;
+  wrong.tolerance = std::nan("");
+  CHECK_THAT(complaint(wrong), Catch::Contains("tolerance"));
+  wrong = row;
+  wrong.facts.contacts = -3;
+  CHECK_THAT(complaint(wrong), Catch::Contains("contacts"));
 }
 
 TEST_CASE("Names of measures, starts and verdicts are read back, others are refused") {

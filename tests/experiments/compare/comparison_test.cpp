@@ -57,6 +57,10 @@ TEST_CASE("Rows that are there are not made again; damage or other options make 
   CHECK(run_comparison(one_case(), options, count).at(0).verdict == Verdict::solved);
   CHECK(made == 5);
   CHECK(compare_row_of_json(read_whole_file(file), file.string()).key == first[0].key);
+  // and one that is another row's
+  write_whole_file(file, to_json(first[1]));
+  CHECK(run_comparison(one_case(), options, count).at(0).tolerance == first[0].tolerance);
+  CHECK(made == 6);
   options.max_seconds = 21.0;
   run_comparison(one_case(), options, count);
   CHECK(made == 9);
@@ -161,6 +165,19 @@ TEST_CASE("What a looser tolerance took all the time for is not tried to a tight
   }
   options.max_seconds = 20.0;
   for (const CompareRow& row : run_comparison(one_case(), options, go_on)) CHECK(row.note.empty());
+}
+
+TEST_CASE("A solve is repeated where another tolerance of the case was missed") {
+  const TemporaryFolder folder;
+  CompareOptions options = options_in(folder.path(), parse_solvers("pgs"));
+  options.tolerances = {1e-7, 1e-30};
+  options.repeats = 3;
+  const auto go_on = [](const CompareRow&, bool, size_t, size_t) { return true; };
+  int solved = 0, missed = 0;
+  for (const CompareRow& row : run_comparison(one_case(), options, go_on))
+    ++(row.verdict == Verdict::solved ? solved : missed);
+  CHECK(solved == 3);
+  CHECK(missed == 1);
 }
 
 TEST_CASE("A case that cannot be read is one row with its reason, and the others go on") {

@@ -18,14 +18,19 @@ using namespace ballast;
 
 TEST_CASE("A comparison is read back in the order of its rows, with its machine and program") {
   const TemporaryFolder folder;
-  const CompareRow rows[] = {hand_made_row("y", "pgs", 1.0, Verdict::solved),
-                             hand_made_row("x", "pgs", 1.0, Verdict::solved, 1),
-                             hand_made_row("x", "pgs", 2.0, Verdict::solved),
-                             hand_made_row("x", "nncg", 1.0, Verdict::solved)};
+  CompareRow rows[] = {hand_made_row("y", "pgs", 1.0, Verdict::solved),
+                       hand_made_row("x", "pgs", 1.0, Verdict::solved, 1),
+                       hand_made_row("x", "pgs", 2.0, Verdict::solved),
+                       hand_made_row("x", "nncg", 1.0, Verdict::solved),
+                       hand_made_row("x", "older", 1.0, Verdict::solved)};
   std::filesystem::create_directory(folder.path() / "rows");
-  for (size_t k = 0; k < 4; ++k)
-    folder.write("rows/" + std::to_string(7 - k) + ".json", to_json(rows[k]));
+  for (size_t k = 0; k < 5; ++k) {
+    rows[k].key = std::to_string(7 - k);
+    folder.write("rows/" + rows[k].key + ".json", to_json(rows[k]));
+  }
   folder.write("rows/half.json.tmp", "{");
+  // the last row is of another program or limit: the folder's table does not have it
+  folder.write("results.csv", compare_csv(std::span(rows).first(4)));
   Manifest("compare", {}, "key").write(folder.path() / "manifest.json");
   const StoredComparison read = read_comparison(folder.path());
   REQUIRE(read.rows.size() == 4);
@@ -44,6 +49,10 @@ TEST_CASE("A folder that is no comparison is refused, and so is a damaged one") 
   folder.write("rows/1.json", "{}");
   CHECK_THROWS_WITH(read_comparison(folder.path()), Catch::Contains("manifest.json"));
   Manifest("compare", {}, "key").write(folder.path() / "manifest.json");
+  CHECK_THROWS_WITH(read_comparison(folder.path()), Catch::Contains("results.csv"));
+  CompareRow row = hand_made_row("x", "pgs", 1.0, Verdict::solved);
+  row.key = "1";
+  folder.write("results.csv", compare_csv({&row, 1}));
   CHECK_THROWS_WITH(read_comparison(folder.path()), Catch::Contains("1.json: is no row"));
 }
 
