@@ -190,7 +190,7 @@ MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packin
 }
 
 fs::path packing_file(const fs::path& cache, const std::string& key) {
-  return (cache / ("packing-" + key + ".bin")).lexically_normal();
+  return cache / ("packing-" + key + ".bin");
 }
 
 bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order,

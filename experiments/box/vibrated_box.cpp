@@ -1,6 +1,9 @@
 #include "experiments/box/vibrated_box.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <sstream>
 
 #include "geometry/shape/mesh_file.hpp"
@@ -36,6 +39,26 @@ std::vector<Vec3> scatter(const std::vector<double>& radii, double length, doubl
   std::stable_sort(order.begin(), order.end(),
                    [&](size_t a, size_t b) { return radii[a] > radii[b]; });
   std::vector<Vec3> centres(radii.size());
+  // By cells a little wider than the largest sphere, z first: what overlaps a sphere has its centre
+  // in the same cell or in one beside it.
+  using Cell = std::array<double, 3>;
+  const double side = 2.001 * radii[order.front()];
+  std::multimap<Cell, size_t> placed;
+  const auto cell_of = [&](const Vec3& p) {
+    return Cell{std::floor(p.z() / side), std::floor(p.y() / side), std::floor(p.x() / side)};
+  };
+  const auto is_free = [&](const Vec3& centre, double r) {
+    const auto [z, y, x] = cell_of(centre);
+    for (const double row : {z - 1.0, z, z + 1.0})
+      for (const double column : {y - 1.0, y, y + 1.0}) {
+        const auto end = placed.upper_bound({row, column, x + 1.0});
+        for (auto near = placed.lower_bound({row, column, x - 1.0}); near != end; ++near) {
+          const double distance = r + radii[near->second];
+          if (!((centre - centres[near->second]).squaredNorm() > distance * distance)) return false;
+        }
+      }
+    return true;
+  };
   // Random sequential addition: places are drawn until one is free.
   for (size_t done = 0; done < order.size(); ++done) {
     const double r = radii[order[done]];
@@ -47,12 +70,9 @@ std::vector<Vec3> scatter(const std::vector<double>& radii, double length, doubl
       }
       const Vec3 centre(random.uniform(r, length - r), random.uniform(r, width - r),
                         random.uniform(r, height - r));
-      const bool is_free = std::all_of(order.begin(), order.begin() + done, [&](size_t other) {
-        const double distance = r + radii[other];
-        return (centre - centres[other]).squaredNorm() > distance * distance;
-      });
-      if (!is_free) continue;
+      if (!is_free(centre, r)) continue;
       centres[order[done]] = centre;
+      placed.emplace(cell_of(centre), order[done]);
       break;
     }
   }

@@ -216,12 +216,15 @@ int ballast_main(int argc, const char* const* argv, std::ostream& out, std::ostr
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error, out, err);  // --help
-    print_failure(err, complaint(program, argc, argv, error.what()));
-    return static_cast<int>(ExitCode::usage);
+    if (error.get_exit_code() != 0) {
+      print_failure(err, complaint(program, argc, argv, error.what()));
+      return static_cast<int>(ExitCode::usage);
+    }
+    chosen = nullptr;
+    program.exit(error, out, err);  // --help
   }
+  ExitCode code = chosen ? perform([&] { return carry_out(*chosen); }, err) : ExitCode::ok;
   // a full disk may show only when the last of the output is written
-  ExitCode code = perform([&] { return carry_out(*chosen); }, err);
   out.flush();
   if (!out && code == ExitCode::ok) {
     print_failure(err, "standard output: cannot be written");

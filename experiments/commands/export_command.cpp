@@ -14,6 +14,7 @@
 #include "experiments/run/run_folder.hpp"
 #include "experiments/view/still.hpp"
 #include "experiments/view/view_page.hpp"
+#include "geometry/shape/mesh_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
@@ -130,9 +131,9 @@ ExitCode export_run(const ExportOptions& options) {
                 ": a checkpoint is one state: for frames and pictures give the run's folder");
   }
   MotionState state;
-  const MechanicalSystem system =
-      recorded_system(from_folder ? options.source : run_of(options.source), state);
-  if (!from_folder) state = read_checkpoint(options.source).state;
+  const RunFolder run(from_folder ? options.source : run_of(options.source));
+  const MechanicalSystem system = recorded_system(run.path(), state);
+  if (!from_folder) state = run.read_state(options.source).state;
   if (state.pose.size() != system.bodies.size())
     throw Error(options.source.string() + ": holds " + std::to_string(state.pose.size()) +
                 " bodies, the scene beside it " + std::to_string(system.bodies.size()));
@@ -150,9 +151,8 @@ struct ViewOptions {
 
 ViewData view_of(const ViewOptions& options) {
   const fs::path path = options.thing;
-  const std::string suffix = path.extension().string();
   if (RunFolder(path).has_run()) return run_view(path);
-  if (suffix == ".obj" || suffix == ".stl") return view_of_mesh(path);
+  if (is_mesh_file(path)) return view_of_mesh(path);
   if (is_problem_file(path)) {
     if (!is_captured(path)) {
       read_problem(path);  // what is no problem at all is said by this

@@ -42,6 +42,8 @@ void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
 void add_settings(const Scene& scene, RunFacts& facts) {
   facts.solver = scene.solver.name;
   facts.iterations_most = scene.solver.max_iterations;
+  facts.seconds_most = scene.solver.max_seconds;
+  if (scene.correction.enabled) facts.slop = scene.correction.slop;
   facts.friction = scene.friction;
   facts.step = scene.step;
   if (scene.solver.tolerance > 0.0) facts.tolerance = scene.solver.tolerance;
@@ -60,7 +62,7 @@ void add_settings(const Scene& scene, RunFacts& facts) {
     if (body.shape)
       facts.smallest_size = std::fmin(facts.smallest_size, body.shape->circumradius());
   if (!scene.grains) return;
-  facts.seed = static_cast<int>(scene.grains->seed);
+  facts.seed = scene.grains->seed;
   facts.grains = scene.grains->count;
   facts.frequency = scene.drive.frequency;
   facts.f_max = scene.drive.f_max_over_weight;

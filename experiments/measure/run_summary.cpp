@@ -165,8 +165,13 @@ std::string steps_words(const RunSummary& run) {
     if (entry.name == run.facts.solver && entry.law != ContactLaw::coulomb)
       return text + " " + run.facts.solver + " solves another law (" + name_of(entry.law) +
              ") than the one that it is judged by.";
-  text += printed(" More accurate and slower: --set solver.max_iterations=%d",
-                  5 * std::max(1, static_cast<int>(run.facts.iterations_most)));
+  text += " More accurate and slower: --set solver.";
+  // iterations are left where the clock has stopped them
+  const bool is_by_clock =
+      run.facts.seconds_most < 1e30 && run.iterations.max < run.facts.iterations_most;
+  text += is_by_clock ? printed("max_seconds=%.3g", 5.0 * run.facts.seconds_most)
+                      : printed("max_iterations=%.0f",  // of which a scene takes 1e9
+                                std::min(1e9, 5.0 * std::max(1.0, run.facts.iterations_most)));
   if (run.facts.solver != "auto") text += ", or --set solver.name=auto";
   return text + ".";
 }
@@ -177,6 +182,8 @@ std::string overlap_words(const RunSummary& run) {
                  run.penetration_max_time, 100.0 * run.penetration_max / run.facts.smallest_size) +
          (run.penetration_max_time < 1.5 * run.facts.step
               ? "Bodies begin inside one another: the scene is to be mended."
+          : run.penetration_max < 1.5 * run.facts.slop
+              ? "correction.slop leaves that much alone: a smaller one mends it."
           : run.missed > 0 ? "A smaller error of the steps mends it, or a smaller scene.step."
                            : "A smaller scene.step mends it.");
 }

@@ -72,9 +72,11 @@ struct RunFacts {
   double solid_fraction_initial = not_known;             ///< before the drive
   bool has_wall = false, has_packing = false;            ///< a driven wall; a solid fraction
   // what was set besides, as the scene has it
-  int seed = 0;  ///< of the grains: the sample
+  std::uint64_t seed = 0;  ///< of the grains: the sample
   std::string solver;
   double iterations_most = not_known;  ///< of the solver per step
+  double seconds_most = not_known;     ///< the same by the clock [s]
+  double slop = not_known;             ///< overlap that is left alone [m]
   double grains = not_known;           ///< number
   double length = not_known;           ///< L of the box [m]
   double height = not_known;           ///< H: top of the packing before the lid is raised [m]

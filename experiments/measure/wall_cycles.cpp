@@ -128,8 +128,8 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
 double transient_of(double frequency) { return std::max(0.3, 1.0 / frequency); }
 
 size_t first_after(std::span<const StepRecord> steps, double t, double h) {
-  const auto later = std::find_if(steps.begin(), steps.end(),
-                                  [&](const StepRecord& s) { return s.time > t + 0.25 * h; });
+  const auto later = std::ranges::partition_point(
+      steps, [&](const StepRecord& s) { return !(s.time > t + 0.25 * h); });
   return static_cast<size_t>(later - steps.begin());
 }
 
@@ -148,10 +148,11 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   cycles.velocity = low_pass(record_column(steps, &StepRecord::wall_v), width);
   cycles.phase.assign(steps.size(), WallPhase::none);
   if (steps.empty()) return cycles;
+  const double transient = transient_of(frequency), end_time = steps.back().time;
+  if (duration_of_period < h || transient > end_time) return cycles;
 
   // Period k begins at k/nu, where the load falls through its mean. A quarter of a step is allowed
   // for the rounding of times.
-  const double transient = transient_of(frequency), end_time = steps.back().time;
   for (long k = std::lround(std::ceil((transient - 0.25 * h) * frequency));; ++k) {
     const double begin = static_cast<double>(k) * duration_of_period;
     const double end = begin + duration_of_period;

@@ -47,7 +47,8 @@ enum class WallPhase : unsigned char { none, active, passive, jammed };
 /// What is cut off at the start for a load of frequency nu [Hz]: 0.3 s, at least one period [s].
 double transient_of(double frequency);
 
-/// First sample later than t, with a quarter of a step for the rounding of multiples of h.
+/// First sample later than t, times growing, with a quarter of a step for the rounding of multiples
+/// of h.
 size_t first_after(std::span<const StepRecord> steps, double t, double h);
 
 /// What is no faster than this part of the fastest is slow.
@@ -90,7 +91,7 @@ struct WallCycles {
 
 /// `frequency` of the load [Hz], `step` h [s]; both must be positive (std::invalid_argument).
 /// `smoothing`: width of the low-pass on f_g and v [s], but at most 1/20 period. Without a whole
-/// period after the transient `periods` is empty.
+/// period after the transient, and of periods shorter than a step, `periods` is empty.
 WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, double step,
                        double smoothing = 4e-3);
 

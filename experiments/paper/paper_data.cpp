@@ -32,7 +32,8 @@ struct RunColumn {
 /// The columns of runs.csv after its texts.
 const RunColumn all_columns[] = {
     // what was set
-    {"seed", "1", "of the grains: the sample", [](Run r) { return 1.0 * r.facts.seed; }},
+    {"seed", "1", "of the grains: the sample",
+     [](Run r) { return static_cast<double>(r.facts.seed); }},
     {"frequency", "Hz", "nu", [](Run r) { return r.facts.frequency; }},
     {"force_over_weight", "1", "f_max/(m g)",
      [](Run r) { return r.facts.f_max / (r.facts.grain_mass * r.facts.gravity); }},
@@ -207,9 +208,9 @@ std::string runs_csv(std::span<const RunRow> rows) {
   for (const RunRow& row : rows) {
     for (const TextColumn& column : text_columns) csv.add(row.*column.text);
     // what is not known is an empty cell
-    for (const double value : row.numbers)
+    for (const double& value : row.numbers)
       if (std::isfinite(value))
-        csv.add(value, 9);
+        csv.add(value, &value == row.numbers.data() ? 17 : 9);  // first the seed: all digits
       else
         csv.add("");
     csv.end_row();

@@ -87,6 +87,11 @@ void collect_axes(const toml::table& table, const std::string& prefix, std::vect
 std::vector<Axis> read_axes(TomlTable& table, const char* key) {
   std::vector<Axis> axes;
   collect_axes(table.section(key).as_it_stands(), "", axes);
+  for (auto axis = axes.begin(); axis != axes.end(); ++axis) {
+    if (axis->values.empty()) table.fail(key, axis->key + " has no values");
+    if (std::any_of(axes.begin(), axis, [&](const Axis& a) { return a.key == axis->key; }))
+      table.fail(key, axis->key + " is there twice");
+  }
   return axes;
 }
 
@@ -136,8 +141,6 @@ Grid read_grid(TomlTable& table, const fs::path& file, const PlannedRun& base) {
   grid.axes = read_axes(table, "vary");
   if (grid.axes.empty())
     table.fail("vary", "nothing varied, expected vary.\"dotted.key\" = [values]");
-  for (const Axis& axis : grid.axes)
-    if (axis.values.empty()) table.fail("vary", axis.key + " has no values");
   for (TomlTable& condition : table.sections("where"))
     grid.where.push_back(read_where(condition, grid.axes));
   table.finish();

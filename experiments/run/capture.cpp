@@ -50,9 +50,13 @@ StepCapture::StepCapture(const CaptureSettings& settings, std::filesystem::path 
                          double g)
     : settings_(settings), folder_(std::move(folder)), h_(h), g_(g) {}
 
+void StepCapture::see(const StepRecord& record) {
+  fastest_wall_ = std::max(fastest_wall_, std::abs(record.wall_v));
+}
+
 void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
                           const StepMemory& memory, const StepRecord& record) {
-  fastest_wall_ = std::max(fastest_wall_, std::abs(record.wall_v));
+  see(record);
   if (!settings_.takes(state.step)) return;
   CapturedProblem captured;
   captured.problem = stepper.problem();

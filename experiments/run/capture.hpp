@@ -32,6 +32,8 @@ class StepCapture {
  public:
   StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g);
 
+  /// A step of before, of a run that goes on.
+  void see(const StepRecord& record);
   /// After a step. Throws Error.
   void observe(const TimeStepper& stepper, const MotionState& state, const StepMemory& memory,
                const StepRecord& record);

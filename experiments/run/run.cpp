@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <stdexcept>
 
 #include "experiments/record/recorder.hpp"
 #include "platform/clock.hpp"
@@ -50,7 +51,7 @@ namespace {
 
 /// Steps between two that are `rate` [Hz] apart, at least one; 0: none is asked for.
 long steps_between(double rate, double h) {
-  return rate > 0.0 ? std::max(1L, std::lround(1.0 / (rate * h))) : 0;
+  return rate > 0.0 ? std::lround(std::clamp(1.0 / (rate * h), 1.0, 1e15)) : 0;
 }
 
 /// One call of `ballast run`: the folder, the start, the drive, and what is said at the end.
@@ -69,6 +70,26 @@ class Run {
   }
 
   RunEnd execute() {
+    try {
+      return work();
+    } catch (const InvalidProblem& error) {
+      fail(error);
+    } catch (const InvalidPolyhedron& error) {
+      fail(error);
+    } catch (const std::invalid_argument& error) {
+      fail(error);
+    }
+  }
+
+ private:
+  /// Of what names no file: with the scene before it, and the time that the drive has come to.
+  [[noreturn]] void fail(const std::exception& error) const {
+    const MotionState& at = run_.state;
+    throw Error(options_.scene + ": " + (at.step > 0 ? printed("t = %.6g s: ", at.time) : "") +
+                error.what());
+  }
+
+  RunEnd work() {
     RunEnd end;
     end.folder = folder_.path();
     if (options_.deposit_only) {
@@ -86,7 +107,6 @@ class Run {
     return end;
   }
 
- private:
   /// ok: nothing stops it.
   ExitCode why_to_stop() const {
     if (InterruptGuard::requested()) return ExitCode::failure;
@@ -109,17 +129,20 @@ class Run {
         std::cout << folder_.path().string() << ": finished already" << std::endl;
       return false;
     }
-    if (read_whole_file(folder_.scene()) != resolved_.text)
-      throw Error(folder_.path().string() +
-                  ": holds a run of other settings: give the same scene and --set, or --overwrite");
-    manifest_ = Manifest::read(folder_.manifest());
-    return true;
+    if (read_whole_file(folder_.scene()) == resolved_.text) {
+      manifest_ = Manifest::read(folder_.manifest());
+      if (manifest_.key() == resolved_.key) return true;  // it knows the meshes too
+    }
+    throw Error(folder_.path().string() +
+                ": holds a run of other settings: give the same scene and --set, or --overwrite");
   }
 
   PackingOrder packing_order() const {
     PackingOrder order;
-    order.cache = options_.packing_cache.empty() ? folder_.path() / ".." / "packings"
-                                                 : options_.packing_cache;
+    // beside the folder's name: where that is a link, the kernel's ".." is another folder
+    order.cache = options_.packing_cache.empty()
+                      ? (folder_.path() / ".." / "packings").lexically_normal()
+                      : options_.packing_cache;
     order.style = options_.style;
     order.goes_on = [this] { return why_to_stop() == ExitCode::ok; };
     return order;
@@ -129,9 +152,7 @@ class Run {
   bool prepare() {
     if (!prepare_run(scene_, packing_order(), manifest_, run_)) return false;
     if (is_resumed_ && is_there(folder_.checkpoint())) {
-      Checkpoint found = read_checkpoint(folder_.checkpoint());
-      if (found.key != resolved_.key)
-        throw Error(folder_.checkpoint().string() + ": belongs to another scene");
+      Checkpoint found = folder_.read_state(folder_.checkpoint());
       run_.memory = std::move(found.memory);
       run_.state = std::move(found.state);
       manifest_.resumed(run_.state.step);
@@ -173,6 +194,9 @@ class Run {
     TimeStepper stepper(run_.system, scene_, run_.system.first_driven_wall());
     Progress progress(options_.style);
     StepCapture capture(options_.capture, folder_.capture(), scene_.step, scene_.gravity.norm());
+    // phases are told beside the fastest that the whole run has seen
+    if (run_.state.step > 0 && options_.capture.to > 0)
+      for (const StepRecord& row : read_steps(folder_.path())) capture.see(row);
     const RecordSpec& spec = scene_.record;
     const long pose_every = steps_between(spec.pose_rate, scene_.step),
                state_every = steps_between(spec.state_rate, scene_.step);

@@ -48,7 +48,7 @@ struct RunEnd {
 /// Runs to the end, to the time limit, or to a signal that InterruptGuard catches (checkpoint, then
 /// ExitCode::failure with the line that goes on). A folder is one process's at a time: another one
 /// that runs there throws, and a packing that another run deposits is waited for. Throws
-/// InvalidProblem, MissingSolver, Error: each with a one-line what().
+/// MissingSolver, Error: each with a one-line what().
 ///
 /// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5,
 /// checkpoint.bin, capture/ (if asked for), log/ (append-only raw rows from which the two records

@@ -101,14 +101,16 @@ Manifest Manifest::read(const fs::path& file) {
                 std::to_string(error.byte));
   }
   // only what is read below is looked at: later programs may note more
-  const auto has = [&](const char* name, Json::value_t type) {
-    if (!json.is_object() || !json.contains(name) || json[name].type() != type)
+  const auto has = [&](const Json& in, const char* name, Json::value_t type) {
+    if (!in.is_object() || !in.contains(name) || in[name].type() != type)
       throw Error(file.string() + ": is no manifest of a run: '" + name +
                   "' is missing or of the wrong type");
   };
-  for (const char* name : {"ballast", "machine", "summary"}) has(name, Json::value_t::object);
-  for (const char* name : {"scene", "key", "started"}) has(name, Json::value_t::string);
-  for (const char* name : {"overrides", "resumed"}) has(name, Json::value_t::array);
+  for (const char* name : {"ballast", "machine", "summary"}) has(json, name, Json::value_t::object);
+  for (const char* name : {"scene", "key", "started"}) has(json, name, Json::value_t::string);
+  for (const char* name : {"overrides", "resumed"}) has(json, name, Json::value_t::array);
+  has(json["ballast"], "commit", Json::value_t::string);
+  has(json["ballast"], "modified", Json::value_t::boolean);
   return Manifest(json);
 }
 
@@ -133,7 +135,7 @@ std::string Manifest::key() const { return json_->at("key").get<std::string>(); 
 
 std::string Manifest::commit() const {
   const Json& ballast = json_->at("ballast");
-  return ballast.value("commit", "") + (ballast.value("modified", false) ? "-dirty" : "");
+  return ballast["commit"].get<std::string>() + (ballast["modified"].get<bool>() ? "-dirty" : "");
 }
 
 std::string Manifest::machine() const {
@@ -170,12 +172,12 @@ void Manifest::write(const fs::path& file) const { write_whole_file(file, text()
 
 namespace {
 
-/// What a run writes: folders of its own, and the files in them as patterns.
+/// What a run writes: folders of its own, and the files in them as patterns; +(): one or more.
 constexpr std::pair<const char*, const char*> run_files[] = {{"log", "steps.bin"},
                                                              {"log", "poses.bin"},
                                                              {"log", "forces.bin"},
-                                                             {"capture", "step_[0-9]*.hdf5"},
-                                                             {"states", "step_[0-9]*.bin"},
+                                                             {"capture", "step_+([0-9]).hdf5"},
+                                                             {"states", "step_+([0-9]).bin"},
                                                              {"", "checkpoint.bin"},
                                                              {"", "steps.csv"},
                                                              {"", "record.h5"},
@@ -215,7 +217,8 @@ void clear(const fs::path& run) {
     const fs::path folder = run / own;
     std::vector<fs::path> found;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-      if (fnmatch(pattern, entry.path().filename().c_str(), 0) == 0) found.push_back(entry.path());
+      if (fnmatch(pattern, entry.path().filename().c_str(), FNM_EXTMATCH) == 0)
+        found.push_back(entry.path());
     for (const fs::path& path : found) fs::remove(path);
     if (*own && !found.empty()) fs::remove(folder, none);
   }
@@ -253,6 +256,13 @@ void RunFolder::begin(const std::string& scene_text, const Manifest& manifest,
 
 fs::path RunFolder::state_at(long step) const { return states() / printed("step_%08ld.bin", step); }
 
+Checkpoint RunFolder::read_state(const fs::path& file) const {
+  Checkpoint found = read_checkpoint(file);
+  if (found.key != Manifest::read(manifest()).key())
+    throw Error(file.string() + ": belongs to another run");
+  return found;
+}
+
 std::vector<fs::path> RunFolder::state_files() const {
   std::vector<fs::path> files;
   if (!is_folder(states())) return files;
@@ -268,7 +278,7 @@ MechanicalSystem system_of_run(const fs::path& path, MotionState& state) {
   const Scene scene = read_scene(folder.scene());
   MechanicalSystem system = scene.grains ? MechanicalSystem{} : make_system(scene, state);
   if (is_there(folder.checkpoint()))
-    state = read_checkpoint(folder.checkpoint()).state;
+    state = folder.read_state(folder.checkpoint()).state;
   else if (scene.grains)
     throw Error(folder.checkpoint().string() + ": missing: the run has no state yet");
   if (scene.grains) {
@@ -287,7 +297,7 @@ MechanicalSystem recorded_system(const fs::path& path, MotionState& state) {
   if (!folder.has_run() || !is_there(record)) return system_of_run(path, state);
   MechanicalSystem system = read_record_system(record);
   system.friction = scene_friction(folder.scene());
-  if (is_there(folder.checkpoint())) state = read_checkpoint(folder.checkpoint()).state;
+  if (is_there(folder.checkpoint())) state = folder.read_state(folder.checkpoint()).state;
   return system;
 }
 

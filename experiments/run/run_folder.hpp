@@ -26,6 +26,7 @@
 
 namespace ballast {
 
+struct Checkpoint;
 struct MechanicalSystem;
 struct MotionState;
 
@@ -82,6 +83,8 @@ class RunFolder {
   /// Whole states kept at record.state_rate: checkpoint files of single steps.
   std::filesystem::path states() const { return path_ / "states"; }
   std::filesystem::path state_at(long step) const;
+  /// The checkpoint or one of the states. Throws Error, also where it is another run's.
+  Checkpoint read_state(const std::filesystem::path& file) const;
   /// Those that there are, in the order of time.
   std::vector<std::filesystem::path> state_files() const;
   std::filesystem::path steps_log() const { return path_ / "log" / "steps.bin"; }

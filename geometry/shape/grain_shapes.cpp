@@ -113,7 +113,7 @@ PrincipalShape make_grain(const GrainShapeSettings& settings, double radius, std
     const Polyhedron principal = to_principal_frame(*hull).shape;
     return to_principal_frame(scaled(principal, radius / principal.circumradius()));
   }
-  throw std::runtime_error(
+  throw InvalidPolyhedron(
       "grain shape: no hull with the wanted number of vertices in 1000 attempts");
 }
 

@@ -335,7 +335,7 @@ RawMesh read_raw(const std::filesystem::path& file, double scale) {
     Place{file}.fail("the scale must be positive and finite");
   const std::string suffix = file.extension().string();
   const bool is_obj = is_same_word(suffix, ".obj");
-  if (!is_obj && !is_same_word(suffix, ".stl"))
+  if (!is_mesh_file(file))
     Place{file}.fail("unknown suffix '" + suffix + "': .obj and .stl are read");
   std::string content;
   try {
@@ -418,6 +418,11 @@ Polyhedron solid_of_mesh(const RawMesh& mesh) {
 }
 
 }  // namespace
+
+bool is_mesh_file(const std::filesystem::path& file) {
+  const std::string suffix = file.extension().string();
+  return is_same_word(suffix, ".obj") || is_same_word(suffix, ".stl");
+}
 
 Polyhedron read_mesh(const std::filesystem::path& file, double scale) {
   const RawMesh mesh = read_raw(file, scale);

@@ -21,6 +21,9 @@ class MeshFileError : public Error {
 /// Solids with more vertices are refused: detection compares all faces with all vertices once.
 inline constexpr size_t most_mesh_vertices = 10000;
 
+/// By its suffix, in any case: .obj, .stl.
+bool is_mesh_file(const std::filesystem::path& file);
+
 /// Reads a closed convex polyhedron; the format follows the suffix (.obj, .stl). `scale` multiplies
 /// coordinates (0.001 for millimetres). STL vertices are welded when they agree to 1e-6 of the
 /// size. Coplanar neighbours become one polygon; in binary STL, which is single precision, they are

@@ -186,14 +186,20 @@ void apply(const std::filesystem::path& file, const std::string& text, toml::tab
   if (line_too_deep(text)) fail(too_deep);
   if (text.find_first_of("\r\n") != std::string::npos) fail("a value is one line");
   const std::string value = text.substr(equals + 1);
+  const auto parse = [](const std::string& words) {
+    return toml::parse("value = " + words, std::string_view(override_source));
+  };
   toml::table given;
   try {
-    given = toml::parse("value = " + value, std::string_view(override_source));
+    try {
+      given = parse(value);
+    } catch (const toml::parse_error&) {
+      // a bare word, where no TOML was meant
+      if (value.empty() || value.find_first_of("\"'[{\\") != std::string::npos) throw;
+      given = parse('"' + value + '"');
+    }
   } catch (const toml::parse_error& error) {
-    // a bare word, where no TOML was meant
-    if (value.empty() || value.find_first_of("\"'[{\\") != std::string::npos)
-      fail("not a TOML value: " + std::string(error.description()));
-    given = toml::parse("value = \"" + value + "\"", std::string_view(override_source));
+    fail("not a TOML value: " + std::string(error.description()));
   }
   // down to the table that holds the last key; tables that are missing are made
   toml::table* table = &root;

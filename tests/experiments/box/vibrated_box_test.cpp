@@ -1,8 +1,13 @@
 #include "experiments/box/vibrated_box.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <numbers>
+#include <numeric>
 #include <set>
 
 #include "geometry/shape/mesh_file.hpp"
+#include "platform/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/box/small_box.hpp"
 #include "tests/support/mesh_writer.hpp"
@@ -99,6 +104,40 @@ TEST_CASE("the rain is in the box, at rest, and no bounding spheres overlap") {
       CHECK((grain.pose.position - rain.grains[b].pose.position).norm() > reach);
     }
   }
+}
+
+TEST_CASE("the places of the rain are those that are found by testing against all spheres") {
+  const Scene scene = small_box({"grains.count=300"});
+  const Rain rain = make_rain(scene);
+  std::vector<double> radii;
+  double volume = 0.0;
+  for (const BodySpec& grain : rain.grains) {
+    radii.push_back(grain.shape->circumradius());
+    volume += 4.0 / 3.0 * std::numbers::pi * std::pow(radii.back(), 3);
+  }
+  const BoxSpec& box = scene.box;
+  double height = volume / (scene.deposit.fill_fraction * box.length * box.width);
+  std::vector<size_t> order(radii.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater(), [&](size_t k) { return radii[k]; });
+  Random random(scene.grains->seed ^ 0x5261696eull);
+  std::vector<std::pair<Vec3, double>> spheres;
+  for (const size_t k : order) {
+    const double r = radii[k];
+    Vec3 centre;
+    const auto is_hit = [&](const auto& sphere) {
+      const double distance = r + sphere.second;
+      return (centre - sphere.first).squaredNorm() <= distance * distance;
+    };
+    for (int attempt = 0; attempt == 0 || std::ranges::any_of(spheres, is_hit); ++attempt) {
+      if (attempt > 0 && attempt % 2000 == 0) height *= 1.05;
+      centre = Vec3(random.uniform(r, box.length - r), random.uniform(r, box.width - r),
+                    random.uniform(r, height - r));
+    }
+    spheres.emplace_back(centre, r);
+    CHECK(rain.grains[k].pose.position == centre);
+  }
+  CHECK(rain.height == height);
 }
 
 TEST_CASE("the walls of each stage: what is fixed, what is driven, and by which load") {

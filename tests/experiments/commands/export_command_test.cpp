@@ -1,5 +1,6 @@
 // Exports of runs: from the record, whatever has become of the scene's files.
 
+#include "experiments/record/checkpoint.hpp"
 #include "geometry/shape/polyhedron.hpp"
 #include "platform/atomic_file.hpp"
 #include "tests/support/mesh_writer.hpp"
@@ -65,6 +66,12 @@ TEST_CASE("export takes its format from the suffix, one time, or all") {
                           exported(run / "states" / "step_00000200.bin", folder.path() / "a.obj");
   for (const ProgramResult& said : {at, kept})
     CHECK_THAT(said.output, Catch::Contains("state at 0.2 s, step 200"));
+  const fs::path stray = run / "states" / "step_00000100.bin";
+  Checkpoint other = read_checkpoint(stray);
+  other.key = "other";
+  write_checkpoint(stray, other);
+  check_failure(exported(stray, folder.path() / "a.obj"), ExitCode::failure,
+                {"step_00000100.bin: belongs to another run"});
   const fs::path series = folder.path() / "all" / "block.vtp";
   const ProgramResult all = exported(run, series, {"--all"});
   CHECK(all.status == 0);

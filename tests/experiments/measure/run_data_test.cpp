@@ -55,6 +55,9 @@ TEST_CASE("facts come from the scene, and of the packing from the manifest") {
   CHECK(box.wall_mass == Approx(50.0));
   CHECK((box.has_wall && box.has_packing));
   CHECK(std::isnan(box.height));
+  const std::vector<std::string> large{"grains.seed=5000000001"};
+  folder.write("scene.toml", resolve_scene(find_scene("vibrated_box"), large).text);
+  CHECK(read_run_data(folder.path()).facts.seed == 5'000'000'001);
   // a wall that is driven without grains
   write_run(folder, some_steps(), "empty_driven_wall");
   const RunFacts bare = read_run_data(folder.path()).facts;

@@ -61,6 +61,10 @@ TEST_CASE("steps that missed their tolerance are counted, and more iterations na
             "3 of 10 steps did not reach the tolerance of 0.001 g h: their error is 0.0061 g h in "
             "the mean of all steps, 0.02 in the worst. More accurate and slower: --set "
             "solver.max_iterations=1000, or --set solver.name=auto."});
+  data.facts.iterations_most = 1e9;
+  CHECK_THAT(trust_words(data.summary()).at(0), Catch::Contains("max_iterations=1000000000,"));
+  data.facts.seconds_most = 0.1;
+  CHECK_THAT(trust_words(data.summary()).at(0), Catch::Contains("--set solver.max_seconds=0.5,"));
   data.facts.solver = "sap";
   CHECK_THAT(trust_words(data.summary()).at(0),
              Catch::Contains("sap solves another law") && !Catch::Contains("--set"));
@@ -87,6 +91,9 @@ TEST_CASE("overlaps that can be seen are said with their time and size") {
   CHECK(trust_words(trust).at(0) ==
         "The deepest overlap is 31 mm at t = 0.005 s, 36 % of the smallest body's radius. A "
         "smaller scene.step mends it.");
+  data.facts.slop = 0.03;
+  CHECK_THAT(trust_words(data.summary()).at(0),
+             Catch::EndsWith("correction.slop leaves that much alone: a smaller one mends it."));
   data.facts.step = 5e-3;  // as of the first step
   CHECK_THAT(
       trust_words(data.summary()).at(0),

@@ -64,6 +64,9 @@ TEST_CASE("whole periods after the transient count: 2 at 1 Hz, 3 at 5 Hz, 42 at 
   CHECK(count(60.0, 1.0) == 42);
   CHECK(count(5.0, 0.59) == 0);
   CHECK(count(5.0, 0.6) == 1);
+  // periods shorter than a step
+  CHECK(count(2e3, 1.0) == 0);
+  CHECK(count(1e30, 1.0) == 0);
 }
 
 TEST_CASE("a frequency or a step that is not positive is refused") {

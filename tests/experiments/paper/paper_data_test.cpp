@@ -207,7 +207,8 @@ TEST_CASE("a record's hash knows every bit of its steps but the clock's") {
 
 TEST_CASE("runs.csv has names, units and a row a run, which is read back column by column") {
   const TemporaryFolder folder;
-  const RunRow was = made_up_row();
+  RunRow was = made_up_row();
+  was["seed"] = 5'000'000'001;
   const auto file = folder.path() / "runs.csv";
   write_whole_file(file, runs_csv(std::vector<RunRow>(2, was)));
   CsvReader reader(file);
@@ -222,6 +223,7 @@ TEST_CASE("runs.csv has names, units and a row a run, which is read back column 
   CHECK(lines[2][0] == "made");
   CHECK(lines[1][column("rise")] == "m");
   CHECK(lines[3][column("roll_top")].empty());  // what is not known
+  CHECK(lines[3][column("seed")] == "5000000001");
 
   const std::vector<RunRow> rows = read_runs_csv(file);
   REQUIRE(rows.size() == 2);

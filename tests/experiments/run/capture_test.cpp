@@ -78,6 +78,29 @@ TEST_CASE("A captured step comes back as the solver saw it") {
   CHECK((before.solution - back.start).norm() <= 1e-12 * before.solution.norm());
 }
 
+TEST_CASE(
+    "a phase is told beside the fastest wall of the whole run, however often it was stopped") {
+  const TemporaryFolder folder;
+  RunOptions options;
+  // the wall falls onto the box, and rests from step 8 on
+  options.scene = folder.write("press.toml",
+                               "[scene]\nstep = 2e-3\nduration = 0.02\n"
+                               "[[wall]]\nnormal = [0, 0, 1]\n"
+                               "[[wall]]\nnormal = [0, 0, -1]\noffset = -1.01\nmass = 1.0\n"
+                               "motion = \"driven\"\n"
+                               "load = { f_min = 100.0, f_max = 100.0, frequency = 5.0 }\n"
+                               "[[body]]\nshape = \"box\"\nsize = [1, 1, 1]\nmass = 1.0\n"
+                               "position = [0, 0, 0.5]\n");
+  options.output = folder.path() / "run";
+  options.capture = CaptureSettings::parse("from=9,to=10");
+  options.style = Progress::Style::quiet;
+  options.resume = true;
+  options.max_seconds = 0.0;  // one step each time
+  while (run(options).code == ExitCode::time_limit) continue;
+  for (const char* name : {"step_0000009.hdf5", "step_0000010.hdf5"})
+    CHECK(read_captured(options.output / "capture" / name).phase == "jammed");
+}
+
 TEST_CASE("A run that is captured has the same bits") {
   const TemporaryFolder folder;
   RunOptions options;

@@ -63,6 +63,9 @@ TEST_CASE("a manifest that is none is refused with its name") {
   auto json = nlohmann::json::parse(Manifest("s", {}, "k").text());
   json["key"] = 5;
   CHECK_THAT(refusal(json.dump()), Contains("is no manifest") && Contains("'key'"));
+  json["key"] = "k";
+  json["ballast"]["commit"] = 5;
+  CHECK_THAT(refusal(json.dump()), Contains("is no manifest") && Contains("'commit'"));
 }
 
 namespace {
@@ -88,8 +91,9 @@ TEST_CASE("a fresh run refuses a folder with a run; overwriting clears what a ru
                                       "figures/cost.svg",
                                       "states/step_00000050.bin",
                                       "capture/step_0000050.hdf5"};
-  const std::vector<fs::path> users{"notes.txt", "log/mine.bin", "figures/mine.svg",
-                                    "figures/mine.gnuplot", "states/picked.bin"};
+  const std::vector<fs::path> users{"notes.txt",         "log/mine.bin",
+                                    "figures/mine.svg",  "figures/mine.gnuplot",
+                                    "states/picked.bin", "states/step_00000050_mine.bin"};
   for (const auto& files : {written, users})
     for (const fs::path& file : files) {
       fs::create_directories((folder.path() / file).parent_path());
@@ -158,4 +162,20 @@ TEST_CASE("the system of a folder without a run, or without a state, is an error
   begun("incline");
   CHECK(system_of_run(place.path(), state).grain_count == 1);
   CHECK(state.step == 0);
+}
+
+TEST_CASE("a state of another run is refused") {
+  const TemporaryFolder place;
+  const RunFolder folder(place.path());
+  begin(folder, resolve_scene(find_scene("incline")).text);
+  MotionState state;
+  system_of_run(place.path(), state);
+  const auto put_state = [&](const char* key) {
+    write_checkpoint(folder.checkpoint(), {key, "drive", state, {}, {}});
+  };
+  put_state("key");
+  CHECK_NOTHROW(system_of_run(place.path(), state));
+  put_state("other");
+  CHECK_THAT(run_error([&] { system_of_run(place.path(), state); }),
+             Contains("checkpoint.bin: belongs to another run"));
 }

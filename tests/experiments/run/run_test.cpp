@@ -6,6 +6,7 @@
 
 #include "experiments/run/run.hpp"
 #include "platform/clock.hpp"
+#include "tests/support/mesh_writer.hpp"
 #include "tests/support/same_bits.hpp"
 #include "tests/support/sample_run.hpp"
 
@@ -157,4 +158,52 @@ TEST_CASE("a folder refuses what would lose a run") {
   CHECK(read_steps(options.output).size() == 20);
   options.output = "/proc/nowhere/run";
   CHECK_THROWS_WITH(run(options), Contains("/proc/nowhere"));
+}
+
+TEST_CASE("a folder that is a link has its packings beside the link") {
+  const TemporaryFolder place;
+  fs::create_directories(place.path() / "far" / "away");
+  fs::create_directory_symlink(place.path() / "far" / "away", place.path() / "link");
+  RunOptions options = small_run(place.path() / "link", {});
+  for (const char* few : {"grains.count=5", "deposit.lid_time=0.02", "deposit.settle_time=0.01"})
+    options.overrides.push_back(few);
+  options.deposit_only = true;
+  CHECK(run(options).code == ExitCode::ok);
+  CHECK(std::distance(fs::directory_iterator(place.path() / "packings"), {}) == 1);
+}
+
+TEST_CASE("a run does not go on with another mesh, also where it has no state yet") {
+  const TemporaryFolder place;
+  const fs::path mesh = place.path() / "grain.obj";
+  write_mesh(mesh, make_box(Vec3(1, 1, 1)));
+  RunOptions options = small_run(place.path() / "run", {});
+  options.scene = place.write("scene.toml",
+                              "[scene]\nstep = 1e-3\nduration = 0.05\n"
+                              "[[wall]]\nnormal = [0, 0, 1]\n"
+                              "[[body]]\nshape = \"mesh\"\nfile = \"grain.obj\"\nmass = 1\n"
+                              "position = [0, 0, 0.5]\n");
+  options.overrides.clear();
+  options.max_seconds = 0.0;
+  options.resume = true;
+  REQUIRE(run(options).code == ExitCode::time_limit);
+  fs::remove(options.output / "checkpoint.bin");
+  write_mesh(mesh, make_box(Vec3(1, 2, 1)));
+  CHECK_THROWS_WITH(run(options), Contains("other settings"));
+}
+
+TEST_CASE("a rate that no step of the run reaches stores nothing but the start") {
+  const TemporaryFolder place;
+  RunOptions options = small_run(place.path() / "run", {});
+  options.scene = "incline";
+  options.overrides = {"scene.duration=0.01", "record.pose_rate=1e-20"};
+  REQUIRE(run(options).code == ExitCode::ok);
+  CHECK(read_poses(options.output).size() == 1);
+}
+
+TEST_CASE("what names no file is said of the scene") {
+  const TemporaryFolder place;
+  RunOptions options = small_run(place.path() / "run", {});
+  options.scene = "incline";
+  options.overrides = {"body.0.mass=1e31"};
+  CHECK_THROWS_WITH(run(options), Catch::StartsWith("incline: dynamics.mass[0]"));
 }
