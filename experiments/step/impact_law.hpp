@@ -10,8 +10,9 @@
 //
 // of which the inelastic impact, e = 0, takes L_0 >= 0 always. Asked is L >= (1 - e^2) L_0: the
 // rebound gives back at most e^2 of what the inelastic impact takes. Moreau's law with one e for
-// all velocities keeps to that; so does Newton's without friction, with equality. Where Newton's
-// doesn't, the island's e is lowered to where it does; e = 0 always does.
+// all velocities keeps to that; so does Newton's without friction, with equality where no force
+// acts within the step, else to O(h). Where Newton's doesn't, the island's e is lowered to where it
+// does; e = 0 always does.
 
 #include <span>
 #include <vector>
@@ -47,8 +48,8 @@ class ImpactLaw {
 
   void measure(FrictionProblem& problem, const SolverRun& run, const Eigen::VectorXd& v,
                Impact& impact) const;
-  bool lower_restitution(const FrictionProblem& problem, bool to_zero);
-  double lowering_factor(const FrictionProblem& problem, size_t island) const;
+  bool lower_restitution(const FrictionProblem& problem, int times, bool to_zero);
+  double lowering_factor(const FrictionProblem& problem, size_t island, double most) const;
   void set_bias(FrictionProblem& problem, std::span<const double> rebound) const;
 
   double highest_, least_ = 0.0;

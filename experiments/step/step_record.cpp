@@ -54,8 +54,8 @@ constexpr StepColumn columns[] = {
      "does, the solver's error did",
      &StepRecord::energy_gained},
     {"restitution", "1",
-     "lowest coefficient of restitution in force: below the scene's where that would have "
-     "given energy",
+     "highest coefficient of restitution, or what it was lowered to where it would have given "
+     "energy: the lowest of those",
      &StepRecord::restitution},
     {"energy_residual", "J", "change of kinetic energy minus works plus dissipation in this step",
      &StepRecord::energy_residual},

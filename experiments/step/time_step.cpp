@@ -119,7 +119,8 @@ void TimeStepper::detect(const MotionState& mid, std::vector<ContactPoint>& cont
 
 /// A contact that was there in the last step begins with the impulse that it had then.
 void TimeStepper::carry(const StepMemory& memory) {
-  if (spec_.warm_start)
+  // After a step that ended by an exception contacts have no impulses.
+  if (spec_.warm_start && memory.impulses.size() == old_contacts_.size())
     carry_impulses(old_contacts_, memory.impulses, memory.contacts, carried_);
   else
     carried_.assign(memory.contacts.size(), Vec3::Zero());
@@ -181,15 +182,18 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
   assembler_.to_world(impulses_, memory.contacts, memory.impulses);
 }
 
-/// Works on the mean velocity of the step, each on its own; u_mean = H v_mean + velocity of
-/// prescribed walls.
-void TimeStepper::account_energy(double mid_time, const StepMemory& memory, StepRecord& record) {
+/// Works on the mean of the velocities at the step's two ends, each on its own; u_mean = H v_mean +
+/// that of the prescribed walls.
+void TimeStepper::account_energy(double begin_time, double end_time, const StepMemory& memory,
+                                 StepRecord& record) {
   const Eigen::VectorXd& v0 = v_before_;
   const Eigen::VectorXd& v1 = runner_.body_velocity();
   const std::vector<double>& mass = assembler_.mass();
   const double contact_power =
       0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
-  const double wall_power = assembler_.imposed_power(memory.contacts, mid_time, impulses_);
+  const double wall_power =
+      0.5 * (assembler_.imposed_power(memory.contacts, begin_time, impulses_) +
+             assembler_.imposed_power(memory.contacts, end_time, impulses_));
   record.dissipated = -(contact_power + wall_power);
   // T' - T = (v' - v) . M v_mean: the work of each impulse of the step is its product with the mean
   // of the velocities before and after.
@@ -235,7 +239,7 @@ void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record)
     if (driven_wall_ >= 0 && (contact.body_a == driven_wall_ || contact.body_b == driven_wall_))
       record.wall_force += std::abs(memory.impulses[c].dot(contact.normal)) / h_;
   }
-  record.contacts = static_cast<double>(memory.contacts.size());
+  record.contacts = problem().contact_count();
   if (record.active_contacts > 0) record.penetration_mean = overlap / record.active_contacts;
 }
 
@@ -258,7 +262,8 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   StepRecord record;
   Stopwatch clock;  // restart() ends a phase and begins the next
   const double h = h_;
-  const double mid_time = state.time + 0.5 * h, end_time = (state.step + 1) * h;
+  const double begin_time = state.time, mid_time = begin_time + 0.5 * h,
+               end_time = (state.step + 1) * h;
   record.time = end_time;
   // A step of Moreau and Jean, of which this is the first half:
   //
@@ -294,7 +299,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   // The books are of the velocities, the correction is of the poses.
   run_parts(team_.get(), 2, [&](int part) {
     if (part) {
-      account_energy(mid_time, memory, record);
+      account_energy(begin_time, end_time, memory, record);
       record.energy_gained = gained_energy(end_time, memory);
       account_contacts(memory, record);
       return;

@@ -187,6 +187,8 @@ BodySpec read_body(TomlTable& table, const fs::path& folder, Scene& scene, size_
   // A scene gives spins in the world frame, and states keep them in the body frame.
   body.spin = body.pose.rotation.conjugate() * body.spin;
   read_force(table.section("force"), body.force);
+  if (body.imposed && !(body.force.constant.isZero(0.0) && body.force.amplitude.isZero(0.0)))
+    table.fail("force", "given together with motion, which no force changes");
   return body;
 }
 
@@ -215,6 +217,11 @@ void repeat(TomlTable& table, std::vector<BodySpec>& bodies) {
       body.pose.position = centre + turn * (body.pose.position - centre) + translation;
       body.pose.rotation = (turn * body.pose.rotation).normalized();
       body.velocity = turn * body.velocity;
+      for (int i = 0; i < 3; ++i)
+        if (!body.free[i] && std::abs(body.velocity[i]) > 1e-12 * body.velocity.norm())
+          table.fail("angle_degrees", "turns a velocity into a locked direction");
+        else if (!body.free[i])
+          body.velocity[i] = 0.0;
       if (body.imposed) body.imposed->centre += translation;
     }
   bodies = std::move(all);

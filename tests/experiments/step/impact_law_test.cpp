@@ -90,6 +90,32 @@ TEST_CASE("a rebound gives back at most e^2 of what the inelastic impact takes")
   CHECK(lowered > 3);
 }
 
+TEST_CASE("a force that pulls bodies apart lowers e by no more than what it does in a step") {
+  for (const double h : {1e-3, 1e-4}) {
+    Scene scene = empty_scene();
+    scene.step = h;
+    scene.restitution = e;
+    WallSpec ceiling = floor_at_zero(0.0);
+    ceiling.normal = -Vec3::UnitZ();
+    scene.walls.push_back(ceiling);
+    scene.bodies.push_back(cube("thrown", 0.1, 2.0, Vec3(0, 0, -0.051)));
+    scene.bodies[0].velocity = Vec3(0, 0, 2);
+    scene.solver.tolerance = 1e-9;
+    MotionState state;
+    const MechanicalSystem system = make_system(scene, state);
+    TimeStepper stepper(system, scene, -1);
+    StepMemory memory;
+    double before = 0.0;
+    while (state.velocity[0].z() > 0.0 && state.step < 100) {
+      before = state.velocity[0].z();
+      stepper.step(state, memory);
+    }
+    INFO("h " << h);
+    CHECK(-state.velocity[0].z() / before == Approx(e).margin(10.0 * h));
+    CHECK(-state.velocity[0].z() < e * before + 1e-9);
+  }
+}
+
 TEST_CASE("islands are limited each on its own") {
   // A cluster that Newton's law would give energy to, beside one that loses more: apart by nature.
   std::uint64_t seed = 1;

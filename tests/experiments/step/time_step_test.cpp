@@ -46,6 +46,32 @@ TEST_CASE("a force that closes a gap within a step is met by the floor") {
   CHECK(state.pose[0].position.z() > 0.05 - 1e-6);
 }
 
+TEST_CASE("a floor that starts to move where a step ends does the work that the body has") {
+  Scene scene = empty_scene();
+  scene.gravity = Vec3::Zero();
+  scene.walls.push_back(floor_at_zero(0.4));
+  scene.walls[0].motion = WallMotion::prescribed;
+  ImposedMotion kick;
+  const Vec3 rest = Vec3::Zero();
+  kick.shift.table = {{0.0, rest}, {0.01, rest}, {0.02, Vec3(0, 0, 0.01)}};
+  scene.walls[0].imposed = std::make_shared<const ImposedMotion>(kick);
+  scene.bodies.push_back(cube("kicked", 0.1, 2.0, Vec3(0, 0, 0.05)));
+  scene.solver.tolerance = 1e-9;
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, scene, -1);
+  StepMemory memory;
+  double work = 0.0, dissipated = 0.0;
+  while (state.step < 15) {
+    const StepRecord record = stepper.step(state, memory);
+    CHECK(record.dissipated > -1e-12);
+    work += record.work_prescribed;
+    dissipated += record.dissipated;
+  }
+  CHECK(state.velocity[0].z() == Approx(1.0).epsilon(1e-6));
+  CHECK(work - dissipated == Approx(1.0).epsilon(1e-6));
+}
+
 TEST_CASE("however far a body turns within a step, energy and angular momentum are kept") {
   const Vec3 inertia(1.0, 2.0, 2.5);
   for (const double radians : {0.5, 2.0, 3.0, 30.0, 300.0}) {

@@ -107,7 +107,12 @@ TEST_CASE("what cannot be is refused by one line") {
            "mass = 1\n[body.motion]\nvelocity = [1, 0, 0]\n[[body.repeat]]\ncount = 2\n"
            "angle_degrees = 10\n",
        "turns a body with a motion");
+  says(cube +
+           "mass = 1\nvelocity = [1, 0, 0]\nlocked = [\"y\"]\n[[body.repeat]]\ncount = 2\n"
+           "angle_degrees = 90\n",
+       "turns a velocity into a locked direction");
   says(cube + "velocity = [1, 0, 0]\nmotion = {}\n", "given together with motion");
+  says(cube + "motion = {}\nforce = {constant = [1, 0, 0]}\n", "given together with motion");
   says(cube + "motion = {table = [[1, 0, 0, 0], [1, 1, 0, 0]]}\n", "row 1 is not later");
   says(cube + "mass = 1\nname = \"a\"\n" + cube + "mass = 1\nname = \"a\"\n", "given twice");
   says(crowd + "to = [1, 1, 1]\n", "1 bodies have room");
