@@ -1,7 +1,8 @@
 # Compile options shared by every target: one interface library, one place.
+include(GNUInstallDirs)
 add_library(ballast_options INTERFACE)
 target_include_directories(ballast_options INTERFACE
-  $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include/ballast>)
+  $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ballast>)
 target_compile_features(ballast_options INTERFACE cxx_std_20)
 # Same bits on every machine: no fused multiply-add chosen by the compiler, no reassociation.
 # Nobody reads errno after std::sqrt; without this each root is a branch and no loop with one is

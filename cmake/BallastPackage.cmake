@@ -1,7 +1,6 @@
 # What `cmake --install` and `cpack` leave: the program with its scenes, and the rooms that another
 # project may build on, as the CMake package Ballast (docs/manual/library.md). What other folders
 # install is of the component `program`.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Ballast)

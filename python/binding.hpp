@@ -28,6 +28,8 @@ inline Eigen::VectorXd vector_of(const Doubles& values, py::ssize_t size, const 
   if (values.size() != size)
     throw std::invalid_argument(name + " has " + std::to_string(values.size()) +
                                 " entries, must have " + std::to_string(size));
+  if (values.ndim() > 2 || (values.ndim() == 2 && values.shape(1) != 3 && values.shape(1) != 1))
+    throw std::invalid_argument(name + ": expected the shape (3n) or (n, 3)");
   return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
 }
 

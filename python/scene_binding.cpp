@@ -1,6 +1,7 @@
 // Scenes, stepped from Python with their state as arrays.
 
 #include <memory>
+#include <mutex>
 
 #include "experiments/run/run.hpp"
 #include "experiments/step/time_step.hpp"
@@ -40,6 +41,7 @@ class SteppedScene {
     for (long k = 0; k < count && goes_on; ++k) {
       {
         const py::gil_scoped_release released;
+        const std::lock_guard held(busy_);
         record = stepper_->step(run_.state, run_.memory);
       }
       if (callback.is_none()) {
@@ -59,8 +61,14 @@ class SteppedScene {
   }
   double time() const { return run_.state.time; }
   double h() const { return scene_.step; }
-  FrictionProblem problem() const { return stepper_->problem(); }
+  FrictionProblem problem() const {
+    const std::lock_guard held(busy_);
+    return stepper_->problem();
+  }
   py::array impulses() const {
+    const std::lock_guard held(busy_);
+    if (stepper_->impulses().size() != stepper_->problem().row_count())
+      throw std::runtime_error("the last step failed: it has no impulses");
     return in_threes(three_rows(stepper_->problem(), stepper_->impulses()));
   }
 
@@ -68,6 +76,7 @@ class SteppedScene {
   void set_force(const std::string& name, const Doubles& force) {
     const Eigen::VectorXd f = vector_of(force, 3, "force");
     if (!f.allFinite()) throw std::invalid_argument("force is not finite");
+    const std::lock_guard held(busy_);
     for (RigidBody& body : run_.system.bodies) {
       if (body.name != name) continue;
       body.force = {.constant = f};
@@ -88,6 +97,7 @@ class SteppedScene {
   Scene scene_;
   PreparedRun run_;
   std::unique_ptr<TimeStepper> stepper_;
+  mutable std::mutex busy_;  ///< of who steps, without the interpreter's lock, or reads
 };
 
 /// A part of the bodies' state as an array: its memory, which lives as long as the scene. `stride`

@@ -35,8 +35,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     for file in sorted(built.iterdir()):
         if file.is_file():
             files["ballast/" + file.name] = file.read_bytes()
-    for file in sorted((root / "problems" / "scenes").glob("*.toml")):
-        files["ballast/scenes/" + file.name] = file.read_bytes()
+    scenes = root / "problems" / "scenes"
+    for file in sorted([*scenes.glob("*.toml"), *scenes.glob("meshes/*.obj")]):
+        files["ballast/scenes/" + file.relative_to(scenes).as_posix()] = file.read_bytes()
     record = ""
     for name, content in files.items():
         digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).decode().rstrip("=")

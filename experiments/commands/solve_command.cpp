@@ -288,6 +288,8 @@ ExternalAnswer answer_to(const ExternalRequest& request, const MakeSolver& make)
 void answer_file(const std::filesystem::path& problem, const std::filesystem::path& answer,
                  const MakeSolver& make) {
   const ExternalRequest request = read_request(problem);
+  if (is_there(answer) && std::filesystem::equivalent(problem, answer))
+    throw Error(answer.string() + ": is the request itself: the answer needs another file");
   write_answer(answer, request, answer_to(request, make));
 }
 

@@ -18,7 +18,7 @@ struct Prover {
   const FrictionProblem& problem;
   SparseRows w;
   Eigen::VectorXd q;
-  double impulse_scale = 0.0;  ///< largest |q_c| / lambda_max(W_cc)
+  double impulse_scale = 0.0;  ///< see NoSolution::least_growth
 
   int normal(int c) const { return problem.row_begin[c]; }
 
@@ -53,6 +53,24 @@ struct Prover {
   }
 };
 
+/// Largest |M v_free| of a body in contact; 0 where only W is known. Moments and momenta stand side
+/// by side: that can only make a claim rarer.
+double largest_momentum(const FrictionProblem& problem) {
+  double largest = 0.0;
+  if (!problem.has_dynamics) return largest;
+  const DynamicsForm& dynamics = problem.dynamics;
+  for (const std::vector<int>* side : {&dynamics.body_a, &dynamics.body_b})
+    for (const int body : *side) {
+      if (body < 0) continue;
+      const int dofs = dynamics.body_dofs(body);
+      const Eigen::Map<const Eigen::MatrixXd> mass(&dynamics.mass[dynamics.mass_begin[body]], dofs,
+                                                   dofs);
+      largest = std::max(largest,
+                         (mass * dynamics.v_free.segment(dynamics.dof_begin[body], dofs)).norm());
+    }
+  return largest;
+}
+
 }  // namespace
 
 NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps) {
@@ -66,6 +84,7 @@ NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& 
       prover.impulse_scale =
           std::max(prover.impulse_scale,
                    prover.q.segment(problem.row_begin[c], problem.contact_rows(c)).norm() / lambda);
+  prover.impulse_scale = std::max(prover.impulse_scale, largest_momentum(problem));
   NoSolution best;
   const auto consider = [&](const Eigen::VectorXd& y) {
     const NoSolution proof = prover.proof(y);
@@ -83,6 +102,8 @@ NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& 
   consider(y);
   // Where sweeps diverge, what a sweep adds tends to a direction that W does not see.
   Eigen::VectorXd swept = Eigen::VectorXd::Zero(problem.row_count()), before;
+  constexpr double most_work = 3e8;  // multiplications
+  sweeps = static_cast<int>(std::min<double>(sweeps, most_work / (1.0 + prover.w.nonZeros())));
   for (int k = 0; k < sweeps && !best.proved(); ++k) {
     before = swept;
     prover.sweep(swept);

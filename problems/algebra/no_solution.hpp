@@ -20,8 +20,9 @@ struct NoSolution {
   /// Least |r| = sqrt(sum r_i^2) that any solution must have [N s]; infinity: there is none. 0:
   /// nothing was proved.
   double least_impulse = 0.0;
-  /// The same over the largest |q_c| / lambda_max(W_cc), what one contact alone would need: above
-  /// beyond_sense a problem counts as one without solution.
+  /// The same over the largest |q_c| / lambda_max(W_cc), what one contact alone would need, and
+  /// |M v_free| of a body in contact, what would stop it: above beyond_sense a problem counts as
+  /// one without solution.
   double least_growth = 0.0;
   /// -q_N . y: how fast some contact sinks in, whatever smaller impulses do [m/s].
   double approach = 0.0;
@@ -38,7 +39,8 @@ struct NoSolution {
 
 /// Searches weights: contacts that no impulse moves, the normal impulses of `r` (those of a solver
 /// that diverges tend to a proof), and what `sweeps` frictionless Gauss-Seidel sweeps add to them,
-/// sweep after sweep. Returns the best proof found; builds W. Throws InvalidProblem.
+/// sweep after sweep, fewer where W has more than 600,000 entries. Returns the best proof found;
+/// builds W. Throws InvalidProblem.
 NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r,
                                 int sweeps = 500);
 

@@ -19,6 +19,7 @@ assert ballast.__file__.startswith(os.getcwd()), ballast.__file__
 problem = ballast.Problem.from_delassus(np.eye(3), [-1.0, 0.0, 0.0], [0.5])
 assert ballast.solve(problem).solved
 assert os.environ["BALLAST_SCENES"].startswith(os.getcwd())
+ballast.Scene("drum")  # has a mesh
 assert ballast.Scene("sliding_cube").step(3)["contacts"] > 0
 PY
 echo "pip install: ok"

@@ -193,6 +193,25 @@ class Scenes(unittest.TestCase):
         del scene
         self.assertTrue(np.all(np.isfinite(x)))  # the array keeps the scene
 
+    def test_a_step_that_fails_leaves_a_scene_that_says_so(self):
+        scene = ballast.Scene("sliding_cube")
+        scene.set_force("cube", [1e34, 0, 0])
+        for _ in range(3):
+            with self.assertRaises(Exception):
+                scene.step()
+        self.assertTrue(len(scene.names) > 0)
+
+    def test_threads_that_step_one_scene_wait_for_each_other(self):
+        scene = ballast.Scene("settled_rest")
+        threads = [threading.Thread(target=scene.step, args=(100,)) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for _ in range(20):
+            self.assertTrue(np.all(np.isfinite(scene.impulses)))
+        for thread in threads:
+            thread.join()
+        self.assertAlmostEqual(scene.time, 200 * scene.h)
+
     def test_callback_ends_the_stepping(self):
         scene, times = ballast.Scene("sliding_cube"), []
         scene.step(100, lambda s, record: times.append(s.time) or len(times) < 7)

@@ -58,7 +58,8 @@ Verdict verdict_of(StopReason reason, const ContactError& error, double toleranc
   const double approach = by_fclib ? tolerance * error.velocity_scale : tolerance;
   const bool sinks = error.finite && error.immovable_approach > approach;
   if (sinks || grows) return Verdict::no_solution;
-  return claimed ? Verdict::denied : Verdict::unsolved;
+  // Nobody can claim a tolerance of 0: it asks for none.
+  return claimed && tolerance > 0.0 ? Verdict::denied : Verdict::unsolved;
 }
 
 std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance) {

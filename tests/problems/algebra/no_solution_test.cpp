@@ -35,6 +35,27 @@ TEST_CASE("a body between two walls that close has no solution; sweeps find the 
   CHECK(look_for_no_solution(squeezed_contacts(), r, 0).proved());
 }
 
+TEST_CASE("a heavy body on a light one is no problem without solution, however heavy") {
+  for (const double heavy : {1e3, 1e8, 1e12}) {
+    FrictionProblem problem;
+    problem.has_dynamics = true;
+    problem.row_begin = {0, 1, 2};
+    problem.friction = {0.0, 0.0};
+    DynamicsForm& d = problem.dynamics;
+    d.add_body(Eigen::MatrixXd::Constant(1, 1, 1.0));
+    d.add_body(Eigen::MatrixXd::Constant(1, 1, heavy));
+    d.body_a = {-1, 0};
+    d.body_b = {0, 1};
+    d.h = {1.0, -1.0, 1.0};
+    d.h_begin = {0, 1, 3};
+    d.v_free = Eigen::Vector2d(-0.01, -0.01);
+    d.bias = Eigen::Vector2d::Zero();
+    INFO("of " << heavy << " kg");
+    CHECK_FALSE(look_for_no_solution(problem, Impulses::Zero(2)).proved());
+    CHECK_FALSE(look_for_no_solution(problem, Eigen::Vector2d(1.0 + heavy, heavy)).proved());
+  }
+}
+
 TEST_CASE("what weights prove is what dense matrices say") {
   FrictionProblem problem = oracle::mixed_problem();
   // Where nothing moves bodies part: sinking in there would be the better proof.

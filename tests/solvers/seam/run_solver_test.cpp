@@ -199,6 +199,7 @@ TEST_CASE("what is not solved says why, and is searched for a proof that it cann
   CHECK_THAT(explained(problem, run, 1e-8), Catch::Contains("the natural map is"));
   run.error.finite = false;
   CHECK(verdict_of(claimed, run.error, 1e300) == Verdict::denied);
+  CHECK(verdict_of(claimed, run.error, 0.0) == Verdict::unsolved);  // nothing was asked
   CHECK(explained(problem, run, 1e300) ==
         "the judge denies it: the impulses, or velocities that they give, are not finite");
   SolverRun early = judged(problem, Impulses::Zero(3), StopReason::time_limit);
