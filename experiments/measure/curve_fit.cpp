@@ -253,22 +253,27 @@ PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
   return fit;
 }
 
-VarianceRatio misfit_of(const PowerFit& fit, const Points& points) {
+VarianceRatio misfit_of(const Points& points) {
   double misses = 0.0, variances = 0.0;
-  int counted = 0;
+  std::vector<double> x, y;
   for (size_t k = 0; k < points.x.size(); ++k) {
-    const double x = points.x[k], y = points.y[k];
-    if (!(x > 0.0 && y > 0.0) || !std::isfinite(points.error[k])) continue;
+    if (!(points.x[k] > 0.0 && points.y[k] > 0.0) || !std::isfinite(points.error[k])) continue;
+    x.push_back(points.x[k]);
+    y.push_back(points.y[k]);
     // for small errors the error of log y is the relative error of y
-    const double miss = std::log(y / fit.at(x)), relative = points.error[k] / y;
-    misses += miss * miss;
+    const double relative = points.error[k] / y.back();
     variances += relative * relative;
-    ++counted;
+  }
+  const PowerFit fit = fit_power(x, y);
+  const auto counted = static_cast<int>(x.size());
+  for (size_t k = 0; k < x.size(); ++k) {
+    const double miss = std::log(y[k] / fit.at(x[k]));
+    misses += miss * miss;
   }
   if (counted < 3 || !std::isfinite(misses) || !(variances > 0.0)) return {};
   const double reduced = misses / (counted - 2) / (variances / counted);
   // the errors come from few samples: a ratio of two variances, not chi^2 of known errors
-  return {reduced, f_p(reduced, fit.samples - 2, points.errors_from)};
+  return {reduced, f_p(reduced, counted - 2, points.errors_from)};
 }
 
 Proportion fit_proportion(std::span<const double> x, std::span<const double> y) {

@@ -112,13 +112,14 @@ struct PowerFit {
 /// Points that are not finite and positive are left out.
 PowerFit fit_power(std::span<const double> x, std::span<const double> y);
 
-/// How far a law misses points: chi^2 over its degrees of freedom, and the p of so large a misfit
-/// where the law holds. Squared residuals of the logarithms in units of the points' squared
-/// relative standard errors. About 1: the law holds within the scatter. Much more: the points leave
-/// it by more than their errors, and the interval of the exponent says how well a line can be
-/// drawn, not how well it holds. The errors are pooled over the points, because an error from three
-/// samples is itself known to a factor of two. NaN with fewer than three points that have errors.
-VarianceRatio misfit_of(const PowerFit& fit, const Points& points);
+/// How far the power law of the points that have errors misses them: chi^2 over its degrees of
+/// freedom, and the p of so large a misfit where the law holds. Squared residuals of the logarithms
+/// in units of the points' squared relative standard errors. About 1: the law holds within the
+/// scatter. Much more: the points leave it by more than their errors, and the interval of the
+/// exponent says how well a line can be drawn, not how well it holds. The errors are pooled over
+/// the points, because an error from three samples is itself known to a factor of two. NaN with
+/// fewer than three points that have errors.
+VarianceRatio misfit_of(const Points& points);
 
 /// y = C x, C the geometric mean of y/x; its 95 % interval is a factor because the points span
 /// decades.

@@ -30,7 +30,9 @@ std::string output_of(const std::string& program, const std::vector<std::string>
 
 /// 64 digits.
 std::string sha256_of(const fs::path& file) {
-  return output_of("sha256sum", {"--", file.string()}, file).substr(0, 64);
+  // a line begins with \ where the name has one
+  const std::string line = output_of("sha256sum", {"--", file.string()}, file);
+  return line.substr(line.starts_with('\\'), 64);
 }
 
 /// What stands in its files, by the path within the archive.
@@ -75,7 +77,15 @@ Files files_of(PaperData& data, const ArchiveOrder& order) {
   for (const PlannedRun& run : data.campaign()) scenes.insert(run.scene);
   for (const std::string& scene : scenes) {
     const fs::path file = find_scene(scene);
-    files["scenes/" + file.filename().string()] = read_whole_file(file);
+    fs::path place = fs::path("scenes") / file.filename();
+    // a plan finds a scene that it names by a path from where it is itself
+    if (!order.plan.empty() && file == scene)
+      place = fs::absolute(file).lexically_normal().lexically_relative(
+          fs::absolute(order.plan).lexically_normal().parent_path());
+    const std::string text = read_whole_file(file);
+    if (*place.begin() == ".." || files.emplace(place.string(), text).first->second != text)
+      throw Error(file.string() +
+                  ": expected a scene below the plan's folder, at no other file's place there");
   }
   const std::map<std::string, std::string> facts{
       {"known", std::to_string(data.finished() + data.known_by_row())},
@@ -97,6 +107,7 @@ fs::path write_archive(PaperData& data, const ArchiveOrder& order) {
   std::string sums;
   std::vector<std::string> members;
   for (const auto& [member, text] : files_of(data, order)) {
+    create_folder((folder / member).parent_path());
     write_whole_file(folder / member, text);
     sums += sha256_of(folder / member) + "  " + member + "\n";
     members.push_back(name + "/" + member);
@@ -105,6 +116,7 @@ fs::path write_archive(PaperData& data, const ArchiveOrder& order) {
   members.push_back(name + "/SHA256SUMS");
   // no owner, no date: the same rows are the same bytes
   std::vector<std::string> words{"--create",
+                                 "--force-local",
                                  "--file=" + neighbour.string(),
                                  "--use-compress-program=gzip -n",
                                  "--owner=0",

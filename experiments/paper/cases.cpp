@@ -246,7 +246,7 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
   }
   const Points points = points_of(groups, "frequency", number.measure);
   const PowerFit fit = fit_power(points.x, points.y);
-  return std::isfinite(fit.exponent) ? found(fit, misfit_of(fit, points).p) : Found{};
+  return std::isfinite(fit.exponent) ? found(fit, misfit_of(points).p) : Found{};
 }
 
 /// The paper's numbers in every case, each with its verdict; how many each meets is a finding.

@@ -305,20 +305,22 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
     const Points points =
         points_of(distinct, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
     if (points.x.empty()) continue;
-    drawn.insert(drawn.end(), distinct.begin(), distinct.end());
+    for (const Group& group : distinct)
+      if (!law.is_of_paper() || seen.insert(group.samples.front()->record).second)
+        drawn.push_back(group);
     panel.curves.push_back(curve_of(points, page::marked(family.title ? family.title : family.name),
                                     family.ink, family.shape));
     const PowerFit fit = fit_power(points.x, points.y);
     table.rows.push_back(
         {page::words(law.name + std::string(".title")), family.name,
-         std::to_string(points.x.size()), words_of(fit), words_of(misfit_of(fit, points)),
+         std::to_string(points.x.size()), words_of(fit), words_of(misfit_of(points)),
          law.exponent == 0.0 || law.exponent == 1.0 ? words_of(proportion(law, points))
                                                     : page::Text("–")});
   }
   const Points all = points_of(drawn, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
   const PowerFit fit = fit_power(all.x, all.y);
   if (!std::isfinite(fit.exponent)) return;
-  const VarianceRatio misfit = misfit_of(fit, all);
+  const VarianceRatio misfit = misfit_of(all);
   const Proportion ratio = proportion(law, all);
   const auto [low, high] = std::ranges::minmax(all.x);
   const Points push = points_of(drawn, law.x.measure, "push_over_weight");

@@ -237,7 +237,7 @@ void add_falling_branch(const Groups& groups, PaperSection& section) {
   for (const Group& group : groups)
     if (group.value >= paper_peak) falling.add(group.value, group.mean("rate"));
   const PowerFit fit = fit_power(falling.x, falling.y);
-  const VarianceRatio misfit = misfit_of(fit, falling);
+  const VarianceRatio misfit = misfit_of(falling);
   section.claim("fig13.falling", {{"exponent", words_of(fit)}, {"misfit", words_of(misfit)}},
                 PaperRange::exponent(-1.0), found(fit, misfit.p));
 }
@@ -426,7 +426,11 @@ void fill_compaction(PaperData& data, PaperSection& section) {
     panel.curves.push_back(curve_of(curve, title, ink, shape));
     std::vector<std::vector<double>> all, fast;
     for (const Group& group : groups) {
-      all.push_back(group.values(rate));
+      std::vector<double> values;  // of the packings that every group has
+      for (const RunRow* row : groups.front().samples)
+        if (std::ranges::all_of(groups, [&](const Group& one) { return one.like(*row); }))
+          values.push_back((*group.like(*row))[rate]);
+      all.push_back(std::move(values));
       if (group.value >= 5.0) fast.push_back(all.back());
     }
     const auto most = std::ranges::max_element(curve.y);

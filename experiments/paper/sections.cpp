@@ -61,7 +61,7 @@ std::vector<page::Text> origin_of(PaperData& data) {
     ++commits[manifest.commit()];
     ++machines[manifest.machine()];
     steps += static_cast<double>(run.steps);
-    seconds += 1e-3 * manifest.summary_number("ms_per_step") * static_cast<double>(run.steps);
+    seconds += manifest.summary_number("drive_seconds");
   }
   std::vector<page::Text> parts =
       parts_of(page::words("paper.origin", {{"finished", std::to_string(data.finished())},

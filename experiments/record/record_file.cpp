@@ -129,6 +129,12 @@ long whole(const Hdf5Reader& file, const char* dataset, double value, double mos
 }
 constexpr double most_steps = 0x1p53;
 
+/// How many rows are gathered at once: a megabyte of numbers.
+size_t rows_together(const RowLayout& layout) {
+  // odd: never 0, whatever sizes a damaged file claims
+  return std::max<size_t>(1, (1 << 17) / (layout.row_size() | 1));
+}
+
 /// Throws Error unless the group has so many rows of the layout.
 void require_rows(const Hdf5Reader& file, const RowLayout& layout, size_t rows) {
   for (const RowPart& part : layout.parts) {
@@ -213,8 +219,7 @@ void add_rows(Hdf5Writer& file, RowReader& rows, const RowLayout& layout,
     datasets.push_back(file.add_rows(name, shape, part.number));
     describe(file, name, part.unit, part.description);
   }
-  constexpr size_t most_numbers = 1 << 17;  // that are gathered: a megabyte
-  const size_t length = layout.row_size(), most_rows = std::max<size_t>(1, most_numbers / length);
+  const size_t length = layout.row_size(), most_rows = rows_together(layout);
   std::vector<double> gathered, values;
   rows.rewind();
   for (size_t first = 0; first < count; first += gathered.size() / length) {
@@ -286,15 +291,22 @@ std::vector<MotionState> read_record_poses(const std::filesystem::path& path) {
   const RowLayout layout = poses_layout(shape.size() == 3 ? shape[1] : 0);
   require_rows(file, layout, shape.empty() ? 0 : shape[0]);
   std::vector<MotionState> frames;
-  for (size_t k = 0; k < shape[0]; ++k) {
-    // A frame is put together as its row stood in the log, and then taken apart like one.
-    std::vector<double> row;
-    for (const RowPart& part : layout.parts) {
-      const std::vector<double> values = file.read_rows("poses/" + part.name, k);
-      row.insert(row.end(), values.begin(), values.end());
+  size_t here = 0;
+  for (size_t first = 0; first < shape[0]; first += here) {
+    here = std::min<size_t>(rows_together(layout), shape[0] - first);
+    std::vector<std::vector<double>> parts;
+    for (const RowPart& part : layout.parts)
+      parts.push_back(file.read_rows("poses/" + part.name, first, here));
+    for (size_t k = 0; k < here; ++k) {
+      // A frame is put together as its row stood in the log, and then taken apart like one.
+      std::vector<double> row;
+      for (const std::vector<double>& values : parts) {
+        const double* begin = values.data() + values.size() / here * k;
+        row.insert(row.end(), begin, begin + values.size() / here);
+      }
+      whole(file, "poses/step", row[0], most_steps);
+      frames.push_back(unpack_pose_row(row));
     }
-    whole(file, "poses/step", row[0], most_steps);
-    frames.push_back(unpack_pose_row(row));
   }
   return frames;
 }

@@ -15,6 +15,7 @@ namespace ballast {
 CaptureSettings CaptureSettings::parse(std::string_view text) {
   CaptureSettings settings;
   if (text.empty()) return settings;
+  settings.steps = 0;
   settings.to = 1L << 60;
   bool has_range = false;
   const std::map<std::string, long*> places{{"every", &settings.every},
@@ -33,6 +34,7 @@ CaptureSettings CaptureSettings::parse(std::string_view text) {
   }
   if (settings.every == 0 && !has_range)
     throw std::invalid_argument("expected every=, or from= and to=");
+  if (settings.steps == 0) settings.steps = settings.every == 1 ? 1 : 2;
   if (settings.every > 0 && settings.steps > settings.every)
     throw std::invalid_argument("steps= is larger than every=");
   if (settings.to < settings.from) throw std::invalid_argument("to= is before from=");

@@ -16,7 +16,7 @@ namespace ballast {
 /// As made: none.
 struct CaptureSettings {
   long every = 0;  ///< 0: no group begins anew, all steps from `from` on are one
-  long steps = 2;  ///< of each group
+  long steps = 2;  ///< of each group; where every is 1 and it is not said: 1
   long from = 1, to = 0;
   long also = 0;  ///< one more step, wherever it is; 0: none
 

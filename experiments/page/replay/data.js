@@ -231,10 +231,10 @@ class Data {
     this.head.walls.forEach((wall, w) => {
       for (let k = 0; k < 3; ++k) {
         if (Math.abs(wall.normal[k]) < 0.999) continue;
-        const places = this.times.map((t) => this.wallAt(w, t)[k]);
+        const edge = (of) => this.times.map((t) => this.wallAt(w, t)[k]).reduce((a, b) => of(a, b));
         // a lid far above what it closes is not part of the picture
-        if (wall.normal[k] > 0) this.low[k] = Math.max(Math.min(...places), free[k] - 2 * most);
-        else this.high[k] = Math.min(Math.max(...places), free[3 + k] + 2 * most);
+        if (wall.normal[k] > 0) this.low[k] = Math.max(edge(Math.min), free[k] - 2 * most);
+        else this.high[k] = Math.min(edge(Math.max), free[3 + k] + 2 * most);
       }
     });
     // by more than a thousandth of the picture, or the load drives it

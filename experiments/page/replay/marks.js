@@ -28,7 +28,7 @@ class Marks {
   constructor(data) {
     this.data = data;
     const f = data.series.f;
-    this.topLoad = f ? Math.max(...f.values.map(Math.abs)) || 1 : 1;
+    this.topLoad = f ? f.values.reduce((a, v) => Math.max(a, Math.abs(v)), 0) || 1 : 1;
     const chains = sampled(data.contactFrames, 10).flatMap((frame) => this.chainsIn(frame));
     this.topChain = quantile(chains.map((chain) => chain[2]), 0.995) || 1;
     this.meanReach = data.reach.reduce((sum, r) => sum + r, 0) / Math.max(1, data.grains);

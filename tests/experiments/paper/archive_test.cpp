@@ -5,6 +5,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
+#include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -85,4 +86,23 @@ TEST_CASE("a folder that is somebody's own is not written into") {
   write_whole_file(folder.path() / "ballast-paper" / "letter.txt", "mine");
   CHECK_THROWS_AS(archive_in(folder.path()), Error);
   CHECK(read_whole_file(folder.path() / "ballast-paper" / "letter.txt") == "mine");
+}
+
+TEST_CASE("a plan whose scene is a file is run again from its archive, in a folder of any name") {
+  const TemporaryFolder folder;
+  const fs::path output = folder.path() / "a:b\\c", plan = folder.path() / "plan" / "mine.toml";
+  fs::create_directories(plan.parent_path() / "boxes");
+  const auto key_of_archived = [&](const std::string& scene) {
+    fs::copy_file(find_scene("vibrated_box_small"), plan.parent_path() / scene);
+    write_whole_file(plan, "scene = \"" + scene + "\"\n[[run]]\nname = \"one\"\n");
+    PaperData data(read_campaign({.plan = plan}), folder.path() / "no_runs");
+    write_archive(data, {.plan = plan, .packings = folder.path(), .output = output});
+    return data.campaign().front().key;
+  };
+  const std::string key = key_of_archived("boxes/small.toml");
+  const fs::path made = output / "ballast-paper";
+  CHECK(read_campaign({.plan = made / "campaign.toml"}).front().key == key);
+  CHECK(read_whole_file(made / "SHA256SUMS").find('\\') == std::string::npos);
+  for (const char* scene : {"../small.toml", "campaign.toml"})
+    CHECK_THROWS_WITH(key_of_archived(scene), Catch::Contains("below the plan's folder"));
 }

@@ -54,6 +54,24 @@ TEST_CASE("of fewer than three values or of one sample nothing is made up") {
   CHECK(plain_words(words_with_interval({1.0, not_known, 1})).ends_with("(one sample)"));
 }
 
+TEST_CASE("the run that all series of Eq. 3 have is one point of their common fit") {
+  const TemporaryFolder folder;
+  PaperData data =
+      written(folder.path(), {"frequency", "force", "gravity", "mass"}, steep_law(0.5),
+              [](const PlannedRun&, const Scene& scene) { return scene.grains->seed == 1; });
+  const PaperSection section = section_named(data, "fig11");
+  const std::vector<Curve>& curves = section.figures[0].plot.panels[0].curves;
+  std::set<std::pair<double, double>> points;
+  for (size_t family = 0; family < 4; ++family)
+    for (size_t k = 0; k < curves[family].x.size(); ++k)
+      points.emplace(curves[family].x[k], curves[family].y[k]);
+  std::vector<double> x, y;
+  for (const auto& [at, rise] : points) x.push_back(at), y.push_back(rise);
+  CHECK(points.size() == 9 + 4 + 3 + 3);
+  CHECK_THAT(judged({section}, "one line through all series"),
+             Catch::Contains(plain_words(words_of(fit_power(x, y)))));
+}
+
 TEST_CASE("the box's section finds how C goes with L/H") {
   const TemporaryFolder folder;
   // (L nu^2/g)^(excess/2) with excess -2: C goes with L^-1, the packing's height is the same.
@@ -112,7 +130,13 @@ TEST_CASE("every other table of cases has its rows") {
 
 TEST_CASE("each preparation stands beside the paper's numbers, each window of compaction alone") {
   const TemporaryFolder folder;
-  PaperData data = written(folder.path(), {"preparation", "compaction"}, steep_law(0.2), is_of_two);
+  PaperData data = written(folder.path(), {"preparation", "compaction"}, steep_law(0.2),
+                           [](const PlannedRun& run, const Scene& scene) {
+                             const bool is_long = stage_of(run) == "compaction";
+                             const auto seed = scene.grains->seed;
+                             return seed <= (is_long ? 3 : 2) &&
+                                    !(is_long && seed == 1 && scene.drive.frequency == 20.0);
+                           });
   const PaperSection preparation = section_named(data, "preparation");
   // the paper, then three pressures by two frictions and the shorter fall
   REQUIRE(preparation.tables[0].rows.size() == 8);
@@ -121,5 +145,8 @@ TEST_CASE("each preparation stands beside the paper's numbers, each window of co
   const PaperSection compaction = section_named(data, "compaction");
   REQUIRE(compaction.figures.size() == 1);
   CHECK(compaction.figures[0].plot.panels[0].curves.size() == 3);
-  CHECK(found_of(compaction, "compaction rate, 0.5–1.5 s").starts_with("largest at "));
+  const std::string rate = found_of(compaction, "compaction rate, 0.5–1.5 s");
+  CHECK(rate.starts_with("largest at "));
+  // one packing is not there at 20 Hz: the others are compared
+  CHECK(rate.find("p –") == std::string::npos);
 }

@@ -12,7 +12,7 @@ using namespace ballast;
 namespace fs = std::filesystem;
 
 TEST_CASE("records come back to the last bit, from the logs and from record.h5") {
-  for (const long steps : {23, 0}) {
+  for (const long steps : {23, 0, 6000}) {  // the last: more frames than are gathered at once
     OpenRecord open(steps);
     check_record(open.path(), open.system, steps);
     open.recorder.finish("scene text", "{}");

@@ -26,6 +26,7 @@ TEST_CASE("Which steps are captured") {
   CHECK(taken("", 160).empty());
   CHECK(taken("every=50", 160) == std::vector<long>{50, 51, 100, 101, 150, 151});
   CHECK(taken("every=50,steps=3,from=90", 160) == std::vector<long>{100, 101, 102, 150, 151, 152});
+  CHECK(taken("every=1,to=3", 160) == std::vector<long>{1, 2, 3});
   CHECK(taken("from=7,to=9", 160) == std::vector<long>{7, 8, 9});
   CHECK(taken("every=50,steps=1,also=7", 160) == std::vector<long>{7, 50, 100, 150});
   CHECK_THROWS_WITH(CaptureSettings::parse("every=0"),
