@@ -65,7 +65,8 @@ page::Table failures_table(std::span<const CompareRow> rows) {
     const bool is_refused = v == Verdict::unsupported, has_none = v == Verdict::no_solution;
     const bool is_loud = is_refused || has_none || v == Verdict::denied || v == Verdict::crashed ||
                          v == Verdict::out_of_memory;
-    if (v == Verdict::solved || (!is_loud && row.note.empty())) continue;
+    const bool is_quiet = row.note.empty() || row.note.starts_with(not_tried);
+    if (v == Verdict::solved || (!is_loud && is_quiet)) continue;
     if ((is_refused && !told.insert(row.solver + row.note).second) ||
         (has_none && !told.insert(row.case_name + row.note).second))
       continue;

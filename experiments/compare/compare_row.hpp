@@ -25,6 +25,8 @@ const char* name_of(StartKind start);
 Measure measure_of(const std::string& name);
 StartKind start_of(const std::string& name);
 
+constexpr const char* not_tried = "not tried: ";
+
 struct CompareRow {
   // what was tried
   std::string key, case_name, family, solver, law;
@@ -40,7 +42,7 @@ struct CompareRow {
 
   // what the process that solved says
   std::string reason;  ///< the backend's StopReason; empty when none was heard
-  std::string note;    ///< why it failed
+  std::string note;    ///< why it failed; begins with not_tried where a looser tolerance took all
   int iterations = 0;
   int runs = 0;  ///< solves in the child, of which the fastest is timed here
   double prepare_seconds = 0.0, solve_seconds = 0.0;

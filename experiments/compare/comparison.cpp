@@ -130,7 +130,7 @@ class Comparison {
   /// A tighter tolerance is not tried where a looser one took all the time: its row is the looser
   /// one's, and says so.
   static CompareRow late_row(CompareRow looser, const CompareRow& row) {
-    looser.note = printed("not tried: out of time to %g already", looser.tolerance);
+    looser.note = not_tried + printed("out of time to %g already", looser.tolerance);
     looser.key = row.key;
     looser.tolerance = row.tolerance;
     return looser;

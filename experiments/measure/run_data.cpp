@@ -57,6 +57,7 @@ void add_settings(const Scene& scene, RunFacts& facts) {
       facts.frequency = wall.load.frequency;
       facts.f_max = wall.load.f_max;
       facts.f_min = wall.load.f_min;
+      break;  // a step records the first one's motion
     }
   for (const BodySpec& body : scene.bodies)
     if (body.shape)

@@ -27,20 +27,26 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
   summary.error_max_relative = summary.error_rms.max / scale;
   if (summary.facts.tolerance > 0.0)
     summary.missed = std::ranges::count_if(steps, [](const auto& s) { return !(s.solved > 0.0); });
-  // the deepest overlap and when it was
-  summary.penetration_mean = statistics(record_column(steps, &StepRecord::penetration_mean)).mean;
-  for (const StepRecord& step : steps)
+  // the deepest overlap and when it was, and the mean of all points
+  double points = 0.0, overlap = 0.0;
+  for (const StepRecord& step : steps) {
     if (step.penetration_max > summary.penetration_max || std::isnan(summary.penetration_max)) {
       summary.penetration_max = step.penetration_max;
       summary.penetration_max_time = std::isnan(step.penetration_max) ? not_known : step.time;
     }
+    if (!std::isfinite(step.penetration_mean)) continue;
+    points += step.active_contacts;
+    overlap += step.active_contacts * step.penetration_mean;
+  }
+  summary.penetration_mean = overlap / points;
 }
 
 /// A missing term makes the balance NaN: it is not silently left out.
 EnergyBalance energy_balance(std::span<const StepRecord> steps) {
-  // summed from the second step on, as the first kinetic energy is that after the first step
-  double residual = steps.back().kinetic_energy - steps.front().kinetic_energy, works = 0.0,
-         kinetic = 0.0, gained = 0.0;
+  // of the first step its own residual, as no row has the kinetic energy before it
+  double residual = steps.front().energy_residual +
+                    (steps.back().kinetic_energy - steps.front().kinetic_energy),
+         works = 0.0, kinetic = 0.0, gained = 0.0;
   for (size_t k = 0; k < steps.size(); ++k) {
     kinetic = std::fmax(kinetic, steps[k].kinetic_energy);
     gained += steps[k].energy_gained;
@@ -58,7 +64,8 @@ FirstContraction first_contraction(std::span<const StepRecord> steps, double fre
   std::vector<double> x;
   for (const StepRecord& step : steps)
     if (step.time <= end) x.push_back(step.wall_x);
-  contraction.size = -statistics(x).min;
+  contraction.size = std::max(-statistics(x).min, 0.0);  // x begins at 0
+  if (contraction.size == 0.0) return contraction;
   const auto nearly_there = std::ranges::find_if(
       steps, [&](const StepRecord& step) { return -step.wall_x >= 0.9 * contraction.size; });
   if (nearly_there != steps.end()) contraction.time90 = nearly_there->time;
@@ -139,12 +146,6 @@ bool overlaps(const RunSummary& run) {
 }
 
 bool gains(const RunSummary& run) { return run.energy.gained > visible_gain * run.energy.moved; }
-
-/// Errors are told in g h, or in m/s without gravity.
-const char* error_unit(const RunSummary& run) {
-  const double scale = run.facts.velocity_scale;
-  return std::isfinite(scale) && scale != 1.0 ? "g h" : "m/s";
-}
 
 std::string length_text(double metres) {
   const bool is_small = metres < 1e-3;
@@ -309,6 +310,11 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts) {
   if (summary.facts.has_packing)
     summary.compaction = compaction_of(steps, summary.wall.periods, summary.facts);
   return summary;
+}
+
+const char* error_unit(const RunSummary& run) {
+  const double scale = run.facts.velocity_scale;
+  return std::isfinite(scale) && scale != 1.0 ? "g h" : "m/s";
 }
 
 bool is_clean(const RunSummary& run) { return run.missed == 0 && !overlaps(run) && !gains(run); }

@@ -111,7 +111,7 @@ struct PhaseCost {
 
 /// Sums over the run [J].
 struct EnergyBalance {
-  double residual = not_known;  ///< after the first step: K_end - K_1 - works + dissipation
+  double residual = not_known;  ///< K_end - K_start - works + dissipation
   double relative = not_known;  ///< |residual| over the sum of |works of a step together|
   double gained = not_known;    ///< given by contacts, which no law of contact does
   double moved = not_known;     ///< those works, and the largest kinetic energy
@@ -119,7 +119,7 @@ struct EnergyBalance {
 
 /// x falls at the start; least x within the first period, at least 0.3 s.
 struct FirstContraction {
-  double size = not_known;    ///< [m]
+  double size = not_known;    ///< [m]; 0 where x does not fall
   double time90 = not_known;  ///< when 90 % of it is reached [s]
 };
 
@@ -198,6 +198,9 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts);
 /// An overlap of this part of the smallest radius, and gained energy of this part of what moved,
 /// can be seen.
 inline constexpr double visible_overlap = 0.01, visible_gain = 0.01;
+
+/// Errors are told in g h, or in m/s without gravity.
+const char* error_unit(const RunSummary& run);
 
 /// Nothing has to be said.
 bool is_clean(const RunSummary& run);

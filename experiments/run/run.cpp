@@ -156,8 +156,9 @@ class Run {
       run_.memory = std::move(found.memory);
       run_.state = std::move(found.state);
       manifest_.resumed(run_.state.step);
-      manifest_.write(folder_.manifest());  // what is killed later has been resumed all the same
     }
+    // what is killed later has its packing, and has been resumed, all the same
+    manifest_.write(folder_.manifest());
     return true;
   }
 
@@ -173,7 +174,6 @@ class Run {
       manifest_.summary("ms_per_step", 1e3 * watch.seconds() / static_cast<double>(done));
     manifest_.summary("peak_memory_MB", peak_memory_MB());
     manifest_.summary(steps_left_entry, static_cast<double>(scene_.step_count() - run_.state.step));
-    recorder.finish(resolved_.text, manifest_.text());
     // of all steps, also those before the run was last resumed
     const std::vector<StepRecord> steps = read_steps(folder_.path());
     double seconds = 0.0, error = 0.0;
@@ -183,6 +183,7 @@ class Run {
     }
     manifest_.summary("drive_seconds", seconds);
     manifest_.summary("error_mean_relative", error);
+    recorder.finish(resolved_.text, manifest_.text());
     manifest_.write(folder_.manifest());
     return end;
   }

@@ -135,17 +135,19 @@ page::Picture jammed_figure(const RunData& data, const RunSummary& summary) {
 
 page::Picture error_figure(const RunData& data, const RunSummary& summary) {
   const double scale = summary.facts.velocity_scale;
-  Panel panel = time_panel(data, "error\u00a0/\u00a0*gh*", true);
+  Panel panel = time_panel(data, printed("error  (%s)", error_unit(summary)), true);
   panel.curves = {
       column_line(data, &StepRecord::error_max, 1.0 / scale, "worst contact", Ink::light, 0.8),
       column_line(data, &StepRecord::error_rms, 1.0 / scale, "rms over contacts", Ink::blue, 1.4)};
   const double tolerance = summary.facts.tolerance;
   if (std::isfinite(tolerance))
     panel.lines = {{tolerance, printed("%g: tolerance", tolerance), false, Ink::grey}};
-  page::Text caption =
-      page::words("run.error", {{"scale", page::quantity(scale, "m/s")},
-                                {"mean", page::number(summary.error_mean_relative)},
-                                {"max", page::number(summary.error_max_relative)}});
+  const bool has_gravity = summary.facts.gravity > 0.0;
+  page::Text caption = page::words(
+      "run.error", {{"unit", page::words(has_gravity ? "run.error.gravity" : "run.error.none",
+                                         {{"scale", page::quantity(scale, "m/s")}})},
+                    {"mean", page::number(summary.error_mean_relative)},
+                    {"max", page::number(summary.error_max_relative)}});
   if (summary.facts.has_packing) caption += page::words("run.error.box");
   return run_picture("error", 420, {panel}, caption);
 }
@@ -165,11 +167,12 @@ page::Picture penetration_figure(const RunData& data, const RunSummary& summary)
   std::erase_if(means, [](double value) { return !(value > 0.0); });
   if (const double least = quantile(means, 0.02); std::isfinite(least))
     panel.y_min = std::pow(10.0, std::floor(std::log10(std::min(least, 1.0))));
-  return run_picture("penetration", 420, {panel},
-                     page::words("run.penetration",
-                                 {{"deepest", page::quantity(1e6 * summary.penetration_max, "µm")},
-                                  {"time", page::quantity(summary.penetration_max_time, "s")},
-                                  {"mean", page::quantity(1e6 * summary.penetration_mean, "µm")}}));
+  page::Text caption = page::words(
+      "run.penetration", {{"deepest", page::quantity(1e6 * summary.penetration_max, "µm")},
+                          {"time", page::quantity(summary.penetration_max_time, "s")},
+                          {"mean", page::quantity(1e6 * summary.penetration_mean, "µm")}});
+  if (summary.facts.has_packing) caption += page::words("run.penetration.box");
+  return run_picture("penetration", 420, {panel}, caption);
 }
 
 page::Picture effort_figure(const RunData& data, const RunSummary& summary) {
@@ -201,8 +204,8 @@ page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
   add_sum(&StepRecord::work_gravity, "of gravity", Ink::green);
   add_sum(&StepRecord::work_prescribed, "of walls and forces", Ink::orange);
   add_sum(&StepRecord::dissipated, "dissipated", Ink::vermilion);
-  // change of kinetic energy − works + dissipation since the first step, without its sign
-  std::vector<double> residual(data.steps.size(), 0.0);
+  // change of kinetic energy − works + dissipation since the start, without its sign
+  std::vector<double> residual(data.steps.size(), data.steps.front().energy_residual);
   for (size_t k = 1; k < residual.size(); ++k) {
     const StepRecord& step = data.steps[k];
     residual[k] = residual[k - 1] + step.kinetic_energy - data.steps[k - 1].kinetic_energy -
@@ -242,14 +245,15 @@ page::Picture figure_3(const RunData& data, const RunSummary& summary) {
   page::Text caption =
       page::words(summary.facts.has_packing ? "run.fig03.paper" : "run.fig03.wall_alone");
   if (summary.facts.has_packing) {
-    if (std::isfinite(summary.contraction.size))
+    if (summary.contraction.size > 0.0)
       caption += page::words("run.fig03.contraction",
                              {{"size", page::quantity(1e3 * summary.contraction.size, "mm")},
                               {"time", page::quantity(summary.contraction.time90, "s")}});
     if (std::isfinite(summary.rise.mean))
       caption += page::words("run.fig03.periods",
                              {{"rise", page::quantity(1e3 * summary.rise.mean, "mm")},
-                              {"net", page::quantity(-1e3 * summary.net.mean, "mm")}});
+                              {"way", summary.net.mean > 0.0 ? "gains" : "loses"},
+                              {"net", page::quantity(1e3 * std::abs(summary.net.mean), "mm")}});
     caption += page::words("run.fig03.look");
   }
   return run_picture("fig03", 560, {above, below}, caption);
@@ -285,7 +289,7 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
         [&, wanted = phase](size_t k) { return cycles.phase[k] == wanted; });
     if (const double peak = statistics(panel.curves.back().y).max; peak > top) top = peak;
   }
-  panel.y_max = 1.1 * top;
+  if (top > 0.0) panel.y_max = 1.1 * top;
   if (has_fits) panel.curves.push_back(fit_curve(summary, unit.factor));
   page::Text caption = page::words(
       "run.fig04.paper", {{"periods", page::exact(cycles.loop_last - cycles.loop_first)},
@@ -300,7 +304,7 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
                                        {"offset", page::quantity(law.passive.offset, "N")},
                                        {"slope", page::quantity(-1e-3 * law.passive.slope, "N/mm")},
                                        {"passive", page::number(law.passive.r2)}});
-  if (std::abs(summary.net.mean) > 0.05 * summary.rise.mean)
+  if (-summary.net.mean > 0.05 * summary.rise.mean)
     caption += page::words("run.fig04.side_by_side");
   return run_picture("fig04", 580, {panel}, caption);
 }

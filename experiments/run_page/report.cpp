@@ -24,7 +24,7 @@ class Results {
   /// Its name stands above its first row; without rows it does not stand.
   void group(const char* name) { group_ = name; }
   /// Without a bound where that is not known.
-  void bounded(const char* what, double value, double bound, const char* unit = "",
+  void bounded(const std::string& what, double value, double bound, const char* unit = "",
                double factor = 1.0) {
     if (!std::isfinite(bound)) return plain(what, page::quantity(factor * value, unit));
     row(page::marked(what), page::quantity(factor * value, unit),
@@ -33,7 +33,7 @@ class Results {
   void compared(const char* what, page::Text value, page::Text paper) {
     row(page::marked(what), std::move(value), std::move(paper), {"paper", page::note});
   }
-  void plain(const char* what, page::Text value, page::Text remark = {}) {
+  void plain(const std::string& what, page::Text value, page::Text remark = {}) {
     row(page::marked(what), std::move(value), {}, std::move(remark));
   }
 
@@ -69,11 +69,12 @@ page::Text range_of(const Statistics& values, double factor, const char* unit) {
 void add_accuracy(const RunSummary& summary, Results& results) {
   // errors are judged by what the scene asks of each step
   const double tolerance = summary.facts.tolerance;
+  const char* unit = error_unit(summary);
   results.group("Contact law");
-  results.bounded("error, rms over contacts, over *gh*: mean of the steps",
+  results.bounded(printed("error, rms over contacts (%s): mean of the steps", unit),
                   summary.error_mean_relative, tolerance);
   results.bounded("the same: worst step", summary.error_max_relative, tolerance);
-  results.plain("worst contact of all steps, over *gh*",
+  results.plain(printed("worst contact of all steps (%s)", unit),
                 page::number(summary.error_max.max / summary.facts.velocity_scale));
   if (tolerance > 0.0)
     results.plain(
@@ -99,11 +100,12 @@ void add_wall(const RunSummary& summary, Results& results) {
                   target::jammed_force);
   results.plain("the same: 95\u202f% of the steps below, worst step",
                 page::number(jammed.force_p95) + ", " + page::number(jammed.force_max));
-  results.plain("|*v*|: mean, largest",
-                page::quantity(1e3 * jammed.speed_mean, "mm/s") + ", " +
-                    page::quantity(1e3 * jammed.speed_max, "mm/s"),
-                styled("moving phases: up to " + page::quantity(1e3 * summary.wall.v_peak, "mm/s"),
-                       page::note));
+  results.plain(
+      "|*v*|: mean, largest",
+      page::quantity(1e3 * jammed.speed_mean, "mm/s") + ", " +
+          page::quantity(1e3 * jammed.speed_max, "mm/s"),
+      styled("moving phases, smoothed: up to " + page::quantity(1e3 * summary.wall.v_peak, "mm/s"),
+             page::note));
   if (!summary.wall.periods.empty())
     results.plain("jammed stretch found in", page::exact(summary.wall.jammed_periods) + " of " +
                                                  page::exact(summary.wall.periods.size()) +
@@ -205,7 +207,8 @@ page::Table periods_table(const RunSummary& summary) {
        {"period", "from\n(s)", "to\n(s)", "Δ*x*~max~\n(mm)", "contraction\n(mm)",
         "*v*~max~ in\n(mm/s)", "*v* out\n(mm/s)", "jammed\n(%)", "ρ,\nmean", "gain\nof ρ"})
     table.head.push_back(page::marked(head));
-  table.is_number.assign(10, true);
+  const size_t columns = summary.facts.has_packing ? 10 : 8;  // the last two are of the packing
+  table.is_number.assign(columns, true);
   double before = not_known;
   for (const WallPeriod& period : summary.wall.periods) {
     table.rows.push_back(
@@ -214,8 +217,10 @@ page::Table periods_table(const RunSummary& summary) {
          page::number(-1e3 * period.net), page::number(1e3 * period.speed_in),
          page::number(1e3 * period.speed_out), page::number(100.0 * period.jammed_share),
          page::number(period.solid_fraction, 5), page::number(period.solid_fraction - before, 2)});
+    table.rows.back().resize(columns);
     before = period.solid_fraction;
   }
+  table.head.resize(columns);
   return table;
 }
 
@@ -281,10 +286,8 @@ void write_report(const std::filesystem::path& folder) {
   RunData data = read_run_data(folder);
   const RunSummary summary = summarise(data.steps, data.facts);
   const bool has_packing = summary.facts.has_packing;
-  const auto note = [&](const char* name) {
-    data.notices.push_back(page::plain_words(page::words(name)));
-  };
-  if (has_packing && summary.wall.periods.empty()) note("run.no_period");
+  if (has_packing && summary.wall.periods.empty())
+    data.notices.push_back(page::plain_words(page::words("run.no_period")));
   page::Section motion{"motion", "What happens"},
       figures{"paper", has_packing ? "What the paper shows" : "Motion of the wall"},
       diagnostics{"diagnostics", "Can it be trusted?"}, parameters{"parameters", "Parameters"};
@@ -294,6 +297,11 @@ void write_report(const std::filesystem::path& folder) {
   // What must be known first stands first.
   const std::vector<std::string> words = trust_words(summary);
   if (!is_clean(summary)) data.notices.insert(data.notices.begin(), words.begin(), words.end());
+  if (const long all = data.scene ? data.scene->step_count() : 0; summary.steps < all)
+    data.notices.insert(
+        data.notices.begin(),
+        plain_words(page::words(
+            "run.unfinished", {{"done", page::exact(summary.steps)}, {"all", page::exact(all)}})));
   page::Page page;
   page.title = name_of_run(data);
   page::Text extent = page::exact(summary.steps) + " steps, " +

@@ -216,6 +216,7 @@ std::optional<ViewData> view_of_run(const RunData& run) {
   MotionState state;
   view.system = recorded_system(run.folder, state);
   if (view.frames.front().pose.size() != view.system.bodies.size()) return std::nullopt;
+  view.has_forces_later = !is_there(record) && is_there(run.folder / "log" / "forces.bin");
   if (is_there(record)) {
     const auto forces = std::make_shared<RecordForces>(record);
     if (forces->frame_count() > 0)

@@ -44,6 +44,7 @@ struct ViewData {
   /// Those with a force of a frame, by its number; empty: none are known. A run's are read when
   /// they are asked for.
   std::function<std::vector<FrameContact>(size_t frame)> contacts;
+  bool has_forces_later = false;  ///< when its record is finished, which holds them
   std::vector<double> series_time;
   std::vector<ViewSeries> series;
   std::vector<ViewPlot> plots;

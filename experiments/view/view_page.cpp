@@ -330,10 +330,12 @@ page::Replay replay_of(const ViewData& view) {
   page::Replay replay = pack_view(view);
   replay.still = still_png(view, {0}, {.width = 640, .height = 420});
   replay.caption = page::words(moves ? "view.motion" : "view.still");
+  if (moves && view.system.first_driven_wall() >= 0)
+    replay.caption += page::words("view.driven_wall");
   if (!view.errors.empty()) replay.caption += page::words("view.errors");
   if (!view.has_shapes) replay.caption += page::words("view.no_shapes");
   if (view.errors.empty() && moves && !view.contacts)
-    replay.caption += page::words("view.no_forces");
+    replay.caption += page::words(view.has_forces_later ? "view.forces_later" : "view.no_forces");
   return replay;
 }
 

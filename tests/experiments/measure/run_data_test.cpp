@@ -64,6 +64,14 @@ TEST_CASE("facts come from the scene, and of the packing from the manifest") {
   CHECK((bare.has_wall && !bare.has_packing));
   CHECK(bare.frequency == 5.0);
   CHECK(bare.f_max > bare.f_min);
+  // of two such walls the first is the one that a step records
+  folder.write("scene.toml", resolve_scene(find_scene("empty_driven_wall")).text +
+                                 "\n[[wall]]\nname = \"other\"\nnormal = [1, 0, 0]\n"
+                                 "offset = -10\nmotion = \"driven\"\nmass = 20\n"
+                                 "load = { f_min = 0, f_max = 100, frequency = 7 }\n");
+  const RunData two = read_run_data(folder.path());
+  REQUIRE(two.scene);
+  CHECK(two.facts.frequency == 5.0);
 }
 
 TEST_CASE("what cannot be read is named") {

@@ -132,6 +132,10 @@ TEST_CASE("first contraction, compaction and the prefactor of Eq. 3") {
   CHECK(summary.compaction.relative_gain ==
         Approx(summary.compaction.gain / summary.compaction.reference));
   CHECK(summary.compaction.rate == Approx(5.0 * summary.compaction.relative_gain).epsilon(1e-3));
+  auto outward = synthetic_box(box);
+  for (StepRecord& step : outward) step.wall_x = std::abs(step.wall_x);
+  const FirstContraction none = summarise(outward, facts_of(box)).contraction;
+  CHECK((none.size == 0.0 && std::isnan(none.time90)));
   const double eq3 = 0.5 * (214.0 * 9.81 / 6300.0) * (9.81 / 25.0);
   CHECK(summary.prefactor == Approx(summary.rise.mean / eq3));
 }
@@ -140,8 +144,9 @@ TEST_CASE("the energy balance is summed from the columns, not taken from the res
   auto steps = synthetic_box();
   const double clean = summarise(steps, facts_of({})).energy.residual;
   double recorded = 0.0;
-  for (size_t k = 1; k < steps.size(); ++k) recorded += steps[k].energy_residual;
+  for (const StepRecord& step : steps) recorded += step.energy_residual;
   CHECK(clean == Approx(recorded).epsilon(1e-6));
+  CHECK(summarise({steps.data(), 1}, {}).energy.residual == steps[0].energy_residual);
   steps[3000].dissipated += 0.5;
   const EnergyBalance broken = summarise(steps, facts_of({})).energy;
   CHECK(broken.residual == Approx(clean + 0.5));
@@ -167,6 +172,17 @@ TEST_CASE("error, overlap and cost") {
   for (const PhaseCost& phase : summary.cost) phases += phase.ms_per_step;
   CHECK(phases == Approx(summary.ms_per_step));
   CHECK(summary.cost[0].ms_per_step == Approx(3.0).epsilon(0.01));
+}
+
+TEST_CASE("the mean overlap is of all active points, not of steps") {
+  auto steps = synthetic_slide();
+  for (StepRecord& step : steps) step.active_contacts = 0;
+  CHECK(std::isnan(summarise(steps, {}).penetration_mean));
+  for (const size_t k : {1, 2}) {
+    steps[k].active_contacts = static_cast<double>(k);
+    steps[k].penetration_mean = 3e-6 * static_cast<double>(k);
+  }
+  CHECK(summarise(steps, {}).penetration_mean == Approx(5e-6));
 }
 
 TEST_CASE("a record without wall or packing has the rest") {

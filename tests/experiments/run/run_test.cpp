@@ -172,6 +172,16 @@ TEST_CASE("a folder that is a link has its packings beside the link") {
   CHECK(std::distance(fs::directory_iterator(place.path() / "packings"), {}) == 1);
 }
 
+TEST_CASE("what a run knows of its packing is written before it drives") {
+  const TemporaryFolder place;
+  RunOptions options = small_run(place.path() / "run", {});
+  for (const char* set : {"grains.count=5", "deposit.lid_time=0.02", "deposit.settle_time=0.01",
+                          "drive.f_max_over_weight=1e12"})
+    options.overrides.push_back(set);
+  CHECK_THROWS_WITH(run(options), Contains("too fast"));
+  CHECK(Manifest::read(options.output / "manifest.json").summary_number("grain_mass_kg") > 0.0);
+}
+
 TEST_CASE("a run does not go on with another mesh, also where it has no state yet") {
   const TemporaryFolder place;
   const fs::path mesh = place.path() / "grain.obj";

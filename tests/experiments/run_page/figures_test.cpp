@@ -58,6 +58,18 @@ TEST_CASE("captions say the run's own numbers") {
              Contains("While f is above its mean"));
 }
 
+TEST_CASE("of a wall that moves out no caption says that it goes in") {
+  BoxRun box = box_run();
+  box.summary.contraction.size = 0.0;
+  box.summary.net.mean = box.summary.rise.mean;
+  CHECK_THAT(plain_words(figure_3(box.data, box.summary).caption.at(0)),
+             !Contains("goes in by") && Contains("in a period and gains "));
+  box.summary.facts.f_max = not_known;
+  const page::Picture loop = figure_4(box.data, box.summary);
+  CHECK_THAT(plain_words(loop.caption.at(0)), !Contains("side by side"));
+  CHECK_FALSE(loop.plot.panels.at(0).y_max);
+}
+
 const page::Picture* find(const std::vector<page::Picture>& pictures, const std::string& name) {
   const auto at = std::find_if(pictures.begin(), pictures.end(), [&](const page::Picture& picture) {
     return picture.plot.name == name;
@@ -66,7 +78,7 @@ const page::Picture* find(const std::vector<page::Picture>& pictures, const std:
 }
 
 TEST_CASE("a slide without overlap has no figure of it, and no jam") {
-  const BoxRun slide = slide_run();
+  BoxRun slide = slide_run();
   const auto figures = diagnostic_figures(slide.data, slide.summary);
   CHECK_FALSE(find(figures, "penetration"));
   CHECK_FALSE(find(figures, "jammed"));
@@ -75,6 +87,13 @@ TEST_CASE("a slide without overlap has no figure of it, and no jam") {
   REQUIRE(find(figures, "energy"));
   for (const double residual : find(figures, "energy")->plot.panels.back().curves.at(1).y)
     CHECK(residual < 1e-12);
+  CHECK_THAT(plain_words(find(figures, "error")->caption.at(0)),
+             Contains("In m/s, as there is no"));
+  // where bodies overlap it is not by a first contraction
+  slide.summary.penetration_max = 1e-6;
+  const auto overlapping = diagnostic_figures(slide.data, slide.summary);
+  CHECK_THAT(plain_words(find(overlapping, "penetration")->caption.at(0)),
+             Contains("Deepest") && !Contains("first contraction"));
 }
 
 TEST_CASE("errors are drawn over g h when gravity is known, with the tolerance") {

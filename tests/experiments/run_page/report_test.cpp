@@ -173,6 +173,15 @@ TEST_CASE("NaN, infinity and one single step") {
   CHECK(nesting_fault(page_of(folder)) == "");
 }
 
+TEST_CASE("the page of a run that is not finished says so") {
+  const TemporaryFolder folder;
+  write_box(folder);
+  auto steps = synthetic_box();
+  steps.resize(4000);
+  write_rows(folder.path(), steps);
+  CHECK_THAT(page_of(folder), Contains("not finished: 4000 of 5000 steps"));
+}
+
 TEST_CASE("no record, no report: the error names the file and the place") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(write_report(folder.path()), Error);
@@ -254,6 +263,10 @@ TEST_CASE("errors are judged by what the scene asks of each step") {
   CHECK(worst[2] == "≤\u00a00.01");
   CHECK(worst[3] == "✗ missed");
   CHECK(rows(0.001)[0][3] == "✗ missed");
+  RunSummary floating = summarise(data.steps, data.facts);
+  row_of(results_table(floating), "error, rms over contacts (g h)");
+  floating.facts.velocity_scale = 1.0;  // without gravity
+  row_of(results_table(floating), "error, rms over contacts (m/s)");
   // a scene that asks for nothing is not judged
   CHECK(rows(not_known)[0][2].empty());
   CHECK(rows(not_known)[0][3].empty());
@@ -275,7 +288,7 @@ TEST_CASE("what is not known takes no row, and a group without rows no heading")
 }
 
 TEST_CASE("a row for each whole period, its number counted from the drive's start") {
-  const RunSummary summary = box_run().summary;
+  RunSummary summary = box_run().summary;
   const page::Table table = periods_table(summary);
   REQUIRE(table.rows.size() == summary.wall.periods.size());
   REQUIRE(table.rows.size() > 2);
@@ -285,6 +298,9 @@ TEST_CASE("a row for each whole period, its number counted from the drive's star
   }
   CHECK(plain_words(table.rows[0].back()) == "–");  // no gain before the first
   CHECK(plain_words(table.rows[1].back()) == "0.0012");
+  summary.facts.has_packing = false;  // and no solid fraction
+  const page::Table bare = periods_table(summary);
+  CHECK((bare.head.size() == 8 && bare.rows[0].size() == 8 && bare.is_number.size() == 8));
 }
 
 TEST_CASE("what makes a run again and what comes next can be pasted in any folder") {

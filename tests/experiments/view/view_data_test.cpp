@@ -67,6 +67,8 @@ TEST_CASE("bodies without a driven wall have the energy's curve, and forces wher
   CHECK_FALSE(view->contacts(view->frames.size() - 1).empty());
   CHECK_THROWS_AS(view->contacts(view->frames.size()), Error);
   CHECK(view->system.friction > 0.0);
+  fs::remove(folder.path() / "run" / "record.h5");  // as of a run that still goes on
+  CHECK(view_of_run(read_run_data(folder.path() / "run"))->has_forces_later);
   CHECK_FALSE(view_of_run(finished_run(other, "incline", {"scene.duration=0.03"}))->contacts);
 }
 

@@ -128,6 +128,17 @@ TEST_CASE("before the first step no forces are known: the next frame's stand for
   CHECK(frames_of(view) == nlohmann::json({1, 2}));
 }
 
+TEST_CASE("a caption speaks of a driven wall and of forces as they are") {
+  ViewData view = sample_view(2);
+  const auto caption = [&] { return plain_words(replay_of(view).caption); };
+  CHECK_THAT(caption(), Catch::Contains("The driven wall stands"));
+  view.system.bodies[6].wall.motion = WallMotion::fixed;
+  view.contacts = {};
+  CHECK_THAT(caption(), !Catch::Contains("driven wall") && Catch::Contains("not stored"));
+  view.has_forces_later = true;
+  CHECK_THAT(caption(), !Catch::Contains("not stored") && Catch::Contains("finished record"));
+}
+
 TEST_CASE("what would be too much is thinned out, its ends kept") {
   const ViewData view = sample_view(400);
   const auto all = nlohmann::json::parse(pack_view(view).head);
