@@ -134,6 +134,17 @@ void create_folder(const fs::path& folder) {
     throw Error(folder.string() + ": cannot make the folder: there is a file of that name");
 }
 
+namespace {
+
+const std::string signature = "process ";  // by which a lock is known
+
+bool is_lock(const fs::path& file) {
+  return file.extension() == ".lock" && is_file(file) &&
+         (fs::file_size(file) == 0 || read_whole_file(file).starts_with(signature));
+}
+
+}  // namespace
+
 void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> known) {
   for (const auto& [name, words] : known) {
     const fs::path mark = folder / name;
@@ -148,7 +159,7 @@ void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> k
                                      fs::recursive_directory_iterator(), [](const auto& entry) {
                                        return !fs::is_directory(entry.symlink_status()) &&
                                               entry.path().extension() != ".tmp" &&
-                                              entry.path().extension() != ".lock";
+                                              !is_lock(entry.path());
                                      });
   if (!has_files) return;
   throw Error(folder.string() +
@@ -156,8 +167,6 @@ void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> k
 }
 
 namespace {
-
-const std::string signature = "process ";  // by which a lock is known
 
 /// The file under that name is still the one that was opened: its last holder may have removed it
 /// meanwhile.

@@ -23,7 +23,8 @@ namespace py = pybind11;
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Ints = py::array_t<int, py::array::c_style | py::array::forcecast>;
 
-/// A vector of that many numbers, whatever its shape. Throws std::invalid_argument naming it.
+/// A vector of that many numbers, of one dimension or in rows of three. Throws
+/// std::invalid_argument naming it.
 inline Eigen::VectorXd vector_of(const Doubles& values, py::ssize_t size, const std::string& name) {
   if (values.size() != size)
     throw std::invalid_argument(name + " has " + std::to_string(values.size()) +

@@ -36,7 +36,7 @@ ExitCode collect(const CollectOptions& options) {
   const std::filesystem::path& folder = options.made.folder;
   if (options.part != "small" && options.part != "all")
     throw UsageError("compare collect: --part " + options.part + ": expected small or all");
-  require_own_folder(folder, {{"collection.toml", "[[family]]"}});
+  require_own_folder(folder, {{"collection.toml", "family"}});
   create_folder(folder / "runs");
   const FileLock lock(folder / "collection.lock", briefly);
   lock.require_held();
@@ -267,6 +267,7 @@ ExitCode compare(CompareRequest& options) {
   create_folder(output);
   const FileLock lock(output / "compare.lock", briefly);
   lock.require_held();
+  std::filesystem::remove(output / "results.csv");  // of an earlier command, with its manifest
   if (!options.live.scene.empty()) return compare_live(options);
   const InterruptGuard guard;
   // The programs go, with their folders, before a closed pipe may end this one.

@@ -86,7 +86,8 @@ class PassingPath {
 /// A folder of our own. TMPDIR decides where: in memory files cost no wait for a disk.
 fs::path make_work_folder() {
   const char* wanted = std::getenv("TMPDIR");
-  std::string name = (fs::path(wanted ? wanted : "/tmp") / "ballast-XXXXXX").string();
+  const fs::path folder = fs::absolute(wanted && *wanted ? wanted : "/tmp");
+  std::string name = folder / "ballast-XXXXXX";
   if (!mkdtemp(name.data())) throw Error(name + ": cannot be made: " + std::strerror(errno));
   return name;
 }
@@ -319,6 +320,7 @@ ExternalAnswer read_answer(const std::filesystem::path& path, const ExternalRequ
   answer.impulses = read_impulses(file, answered + "r", request.problem);
   // What need not be there.
   if (file.has(answered + "iterations")) answer.iterations = file.read_int(answered + "iterations");
+  if (answer.iterations < 0) file.fail(answered + "iterations is negative");
   if (file.has(answered + "residual"))
     answer.own_residual = read_number(file, answered + "residual", true);
   if (file.has(answered + "seconds")) answer.seconds = read_number(file, answered + "seconds");

@@ -76,6 +76,8 @@ class Run {
       fail(error);
     } catch (const InvalidPolyhedron& error) {
       fail(error);
+    } catch (const UnsupportedProblem& error) {
+      fail(error);
     } catch (const std::invalid_argument& error) {
       fail(error);
     }
@@ -117,8 +119,7 @@ class Run {
   bool open_folder() {
     create_folder(folder_.path());
     lock_.emplace(folder_.path() / "run.lock", briefly);
-    if (!lock_->is_held())
-      throw Error(folder_.path().string() + ": " + lock_->holder() + " is working there");
+    lock_->require_held();
     is_resumed_ = options_.resume && folder_.has_run();
     if (!is_resumed_) {
       folder_.begin(resolved_.text, manifest_, options_.overwrite);

@@ -193,7 +193,7 @@ void TimeStepper::account_energy(double begin_time, double end_time, const StepM
       0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
   const double wall_power =
       0.5 * (assembler_.imposed_power(memory.contacts, begin_time, impulses_) +
-             assembler_.imposed_power(memory.contacts, end_time, impulses_));
+             assembler_.imposed_power(impulses_));
   record.dissipated = -(contact_power + wall_power);
   // T' - T = (v' - v) . M v_mean: the work of each impulse of the step is its product with the mean
   // of the velocities before and after.
@@ -219,10 +219,10 @@ void TimeStepper::account_energy(double begin_time, double end_time, const StepM
 }
 
 /// -L of impact_law.hpp where that is positive. Without error L = r . W r / 2 - r . u >= 0.
-double TimeStepper::gained_energy(double end_time, const StepMemory& memory) {
+double TimeStepper::gained_energy() {
   // -L = r . (u + u_f) / 2 = H^T r . (v' + v_free) / 2 + r . (velocity of the walls).
   const double given = 0.5 * runner_.body_impulse().dot(runner_.body_velocity() + v_free()) +
-                       assembler_.imposed_power(memory.contacts, end_time, impulses_);
+                       assembler_.imposed_power(impulses_);
   return std::max(0.0, given);
 }
 
@@ -300,7 +300,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   run_parts(team_.get(), 2, [&](int part) {
     if (part) {
       account_energy(begin_time, end_time, memory, record);
-      record.energy_gained = gained_energy(end_time, memory);
+      record.energy_gained = gained_energy();
       account_contacts(memory, record);
       return;
     }

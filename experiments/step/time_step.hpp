@@ -70,7 +70,7 @@ class TimeStepper {
   void solve(StepMemory& memory, StepRecord& record);
   void account_energy(double begin_time, double end_time, const StepMemory& memory,
                       StepRecord& record);
-  double gained_energy(double end_time, const StepMemory& memory);
+  double gained_energy();
   void account_contacts(const StepMemory& memory, StepRecord& record);
   void finish_motion(double end_time, MotionState& state);
 

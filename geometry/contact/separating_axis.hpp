@@ -29,16 +29,18 @@ struct RelativePose {
 /// Where two bodies are and how large; index 0 is a, 1 is b.
 struct PairFrame {
   PairFrame(const BodyBounds& a, const BodyBounds& b, const RelativePose& b_in_a)
-      : bounds{&a, &b}, other{b_in_a, b_in_a.inverse()} {}
+      : bounds{&a, &b},
+        other{b_in_a, b_in_a.inverse()},
+        size_(std::max(a.circumradius + b.circumradius, b_in_a.position.norm() / 16.0)) {}
 
   const BodyBounds* bounds[2];
   RelativePose other[2];  ///< other[i]: the other body's pose in the frame of body i
   /// The length that rounding errors and tolerances scale with [m]: of the bodies, or of the
   /// distance to which their coordinates are rounded where they are far apart.
-  double size() const {
-    return std::max(bounds[0]->circumradius + bounds[1]->circumradius,
-                    other[0].position.norm() / 16.0);
-  }
+  double size() const { return size_; }
+
+ private:
+  double size_;
 };
 
 /// A PairFrame with the shapes' tables.

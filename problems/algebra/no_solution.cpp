@@ -7,6 +7,7 @@
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
+#include "problems/algebra/islands.hpp"
 
 namespace ballast {
 namespace {
@@ -18,7 +19,7 @@ struct Prover {
   const FrictionProblem& problem;
   SparseRows w;
   Eigen::VectorXd q;
-  double impulse_scale = 0.0;  ///< see NoSolution::least_growth
+  std::vector<double> natural;  ///< impulse of each contact's island: NoSolution::least_growth
 
   int normal(int c) const { return problem.row_begin[c]; }
 
@@ -34,7 +35,10 @@ struct Prover {
     if (!(proof.approach > 1e-10 * q.cwiseAbs().dot(y))) return {};
     const double slope = (w.transpose() * y).norm();
     proof.least_impulse = slope > 0.0 ? proof.approach / slope : infinity;
-    proof.least_growth = impulse_scale > 0.0 ? proof.least_impulse / impulse_scale : infinity;
+    double scale = 0.0;
+    for (int c = 0; c < problem.contact_count(); ++c)
+      if (weights[c] > 0.0) scale = std::max(scale, natural[c]);
+    proof.least_growth = scale > 0.0 ? proof.least_impulse / scale : infinity;
     const double largest = weights.maxCoeff(&proof.first_contact);
     proof.contacts = static_cast<int>((weights.array() > 1e-3 * largest).count());
     return proof;
@@ -53,38 +57,49 @@ struct Prover {
   }
 };
 
-/// Largest |M v_free| of a body in contact; 0 where only W is known. Moments and momenta stand side
-/// by side: that can only make a claim rarer.
-double largest_momentum(const FrictionProblem& problem) {
-  double largest = 0.0;
-  if (!problem.has_dynamics) return largest;
-  const DynamicsForm& dynamics = problem.dynamics;
-  for (const std::vector<int>* side : {&dynamics.body_a, &dynamics.body_b})
-    for (const int body : *side) {
-      if (body < 0) continue;
-      const int dofs = dynamics.body_dofs(body);
-      const Eigen::Map<const Eigen::MatrixXd> mass(&dynamics.mass[dynamics.mass_begin[body]], dofs,
-                                                   dofs);
-      largest = std::max(largest,
-                         (mass * dynamics.v_free.segment(dynamics.dof_begin[body], dofs)).norm());
-    }
-  return largest;
+/// |M v_free|; 0 of what does not move. Moments and momenta stand side by side: that can only make
+/// a claim rarer.
+double momentum_of(const DynamicsForm& dynamics, int body) {
+  if (body < 0) return 0.0;
+  const int dofs = dynamics.body_dofs(body);
+  const Eigen::Map<const Eigen::MatrixXd> mass(&dynamics.mass[dynamics.mass_begin[body]], dofs,
+                                               dofs);
+  return (mass * dynamics.v_free.segment(dynamics.dof_begin[body], dofs)).norm();
+}
+
+/// The largest of each contact's island; where only W is known, of all.
+void spread_over_islands(const FrictionProblem& problem, std::vector<double>& values) {
+  if (values.empty()) return;
+  if (!problem.has_dynamics) {
+    values.assign(values.size(), *std::ranges::max_element(values));
+    return;
+  }
+  for (const std::vector<int>& island : contact_islands(problem)) {
+    double largest = 0.0;
+    for (const int c : island) largest = std::max(largest, values[c]);
+    for (const int c : island) values[c] = largest;
+  }
 }
 
 }  // namespace
 
 NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps) {
   const int contacts = problem.contact_count();
-  Prover prover{problem, delassus_matrix(problem), {}};
+  Prover prover{problem, delassus_matrix(problem), {}, {}};
   free_contact_velocity(problem, prover.q);
   std::vector<Eigen::Matrix3d> diagonal;
   delassus_diagonal(problem, diagonal);
-  for (int c = 0; c < contacts; ++c)
-    if (const double lambda = largest_eigenvalue(diagonal[c]); lambda > 0.0)
-      prover.impulse_scale =
-          std::max(prover.impulse_scale,
-                   prover.q.segment(problem.row_begin[c], problem.contact_rows(c)).norm() / lambda);
-  prover.impulse_scale = std::max(prover.impulse_scale, largest_momentum(problem));
+  prover.natural.resize(contacts);
+  for (int c = 0; c < contacts; ++c) {
+    const double lambda = largest_eigenvalue(diagonal[c]);
+    if (lambda > 0.0)
+      prover.natural[c] =
+          prover.q.segment(problem.row_begin[c], problem.contact_rows(c)).norm() / lambda;
+    if (problem.has_dynamics)
+      for (const int body : {problem.dynamics.body_a[c], problem.dynamics.body_b[c]})
+        prover.natural[c] = std::max(prover.natural[c], momentum_of(problem.dynamics, body));
+  }
+  spread_over_islands(problem, prover.natural);
   NoSolution best;
   const auto consider = [&](const Eigen::VectorXd& y) {
     const NoSolution proof = prover.proof(y);

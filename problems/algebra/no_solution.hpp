@@ -21,8 +21,8 @@ struct NoSolution {
   /// nothing was proved.
   double least_impulse = 0.0;
   /// The same over the largest |q_c| / lambda_max(W_cc), what one contact alone would need, and
-  /// |M v_free| of a body in contact, what would stop it: above beyond_sense a problem counts as
-  /// one without solution.
+  /// |M v_free| of a body, what would stop it, within the islands of the contacts with a weight:
+  /// above beyond_sense a problem counts as one without solution.
   double least_growth = 0.0;
   /// -q_N . y: how fast some contact sinks in, whatever smaller impulses do [m/s].
   double approach = 0.0;

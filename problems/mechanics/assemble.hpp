@@ -70,6 +70,10 @@ class ProblemAssembler {
   const Eigen::VectorXd& imposed() const { return imposed_; }
   /// What imposed motions at that time add to r . u [J].
   double imposed_power(std::span<const ContactPoint> contacts, double time, const Impulses& r);
+  /// The same at the step's end.
+  double imposed_power(const Impulses& r) const {
+    return imposed_.size() > 0 ? r.dot(imposed_) : 0.0;
+  }
 
   /// World-frame impulses on body b <-> stacked rows of the problem assembled last.
   void to_rows(std::span<const Vec3> world, std::span<const ContactPoint> contacts,

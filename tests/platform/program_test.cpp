@@ -370,7 +370,9 @@ TEST_CASE("What a program forks ends with it") {
       CHECK(runs(child));
       CHECK(runs(daemon));
       const pid_t outer = child_of(getpid());
-      kill(inner ? child_of(outer) : outer, SIGKILL);
+      const pid_t supervisor = inner ? child_of(outer) : outer;
+      REQUIRE(supervisor > 0);
+      kill(supervisor, SIGKILL);
       CHECK(ends(child));
       CHECK(ends(daemon));
       REQUIRE(forking.wait(20.0));

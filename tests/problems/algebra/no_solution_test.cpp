@@ -56,6 +56,24 @@ TEST_CASE("a heavy body on a light one is no problem without solution, however h
   }
 }
 
+TEST_CASE("a heavy body elsewhere hides no proof") {
+  FrictionProblem problem;
+  problem.has_dynamics = true;
+  problem.row_begin = {0, 1, 2, 3};
+  problem.friction = {0.0, 0.0, 0.0};
+  DynamicsForm& d = problem.dynamics;
+  d.add_body(Eigen::MatrixXd::Constant(1, 1, 1.0));
+  d.add_body(Eigen::MatrixXd::Constant(1, 1, 1e20));
+  // the first between two walls that close, the second on another
+  d.body_a = {-1, 0, -1};
+  d.body_b = {0, -1, 1};
+  d.h = {1.0, -1.0, 1.0};
+  d.h_begin = {0, 1, 2, 3};
+  d.v_free = Eigen::Vector2d(0.0, -1.0);
+  d.bias = Eigen::Vector3d(-1.0, -1.0, 0.0);
+  CHECK(look_for_no_solution(problem, Impulses::Zero(3)).proved());
+}
+
 TEST_CASE("what weights prove is what dense matrices say") {
   FrictionProblem problem = oracle::mixed_problem();
   // Where nothing moves bodies part: sinking in there would be the better proof.
