@@ -184,8 +184,7 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
 
 /// Works on the mean of the velocities at the step's two ends, each on its own; u_mean = H v_mean +
 /// that of the prescribed walls.
-void TimeStepper::account_energy(double begin_time, double end_time, const StepMemory& memory,
-                                 StepRecord& record) {
+void TimeStepper::account_energy(double begin_time, const StepMemory& memory, StepRecord& record) {
   const Eigen::VectorXd& v0 = v_before_;
   const Eigen::VectorXd& v1 = runner_.body_velocity();
   const std::vector<double>& mass = assembler_.mass();
@@ -299,7 +298,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   // The books are of the velocities, the correction is of the poses.
   run_parts(team_.get(), 2, [&](int part) {
     if (part) {
-      account_energy(begin_time, end_time, memory, record);
+      account_energy(begin_time, memory, record);
       record.energy_gained = gained_energy();
       account_contacts(memory, record);
       return;
