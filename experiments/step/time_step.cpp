@@ -50,7 +50,7 @@ Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
     const Vec3 update = spin + h * inverse.cwiseProduct(inertia.cwiseProduct(mean).cross(mean));
     change = (update - next).norm();
     next = update;
-    if (change <= 1e-16 * spin.norm()) break;
+    if (change <= 1e-16 * spin.norm()) return next;
   }
   if (change <= 1e-10 * spin.norm()) return next;
   // From h |w| ~ 2 on that does not converge: two halves conserve both as well.

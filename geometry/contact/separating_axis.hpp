@@ -8,7 +8,7 @@
 // pair apart it is positive, and the distance when the nearest points lie inside the facet's two
 // features.
 
-#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -29,9 +29,11 @@ struct RelativePose {
 /// Where two bodies are and how large; index 0 is a, 1 is b.
 struct PairFrame {
   PairFrame(const BodyBounds& a, const BodyBounds& b, const RelativePose& b_in_a)
-      : bounds{&a, &b},
-        other{b_in_a, b_in_a.inverse()},
-        size_(std::max(a.circumradius + b.circumradius, b_in_a.position.norm() / 16.0)) {}
+      : bounds{&a, &b}, other{b_in_a, b_in_a.inverse()}, size_(a.circumradius + b.circumradius) {
+    // of few pairs a root
+    const double apart = b_in_a.position.squaredNorm() / 256.0;
+    if (apart > size_ * size_) size_ = std::sqrt(apart);
+  }
 
   const BodyBounds* bounds[2];
   RelativePose other[2];  ///< other[i]: the other body's pose in the frame of body i
