@@ -136,11 +136,13 @@ void create_folder(const fs::path& folder) {
 
 namespace {
 
-const std::string signature = "process ";  // by which a lock is known
+const std::string signature = "process ";
+
+/// By which a lock is known. One that has just been made is not signed yet.
+bool is_lock_text(std::string_view text) { return text.empty() || text.starts_with(signature); }
 
 bool is_lock(const fs::path& file) {
-  return file.extension() == ".lock" && is_file(file) &&
-         (fs::file_size(file) == 0 || read_whole_file(file).starts_with(signature));
+  return file.extension() == ".lock" && is_file(file) && is_lock_text(read_whole_file(file));
 }
 
 }  // namespace
@@ -204,7 +206,7 @@ bool FileLock::try_once() {
   char text[160];
   const ssize_t length = pread(descriptor, text, sizeof text, 0);
   const std::string_view words(text, static_cast<size_t>(std::max<ssize_t>(length, 0)));
-  const bool is_ours = words.empty() || words.starts_with(signature);
+  const bool is_ours = is_lock_text(words);
   if (is_ours && is_locked && is_current(descriptor, file_)) {
     descriptor_ = descriptor;
     return true;

@@ -57,7 +57,7 @@ std::vector<HistoryPoint> read_history(const Hdf5Reader& file) {
     file.fail(
         name + " has " + std::to_string(entries) +
         " entries, must have three per point (iteration, seconds, error) of a million at most");
-  const std::vector<double> values = file.read<double>(name, entries);
+  const std::vector<double> values = file.read<double>(name);
   for (std::size_t k = 0; k + 2 < values.size(); k += 3) {
     if (!(values[k] >= 0.0 && values[k] < 2e9) || !(values[k + 1] >= 0.0) ||
         std::isnan(values[k + 2]))

@@ -142,7 +142,7 @@ page::Picture error_figure(const RunData& data, const RunSummary& summary) {
   const double tolerance = summary.facts.tolerance;
   if (std::isfinite(tolerance))
     panel.lines = {{tolerance, printed("%g: tolerance", tolerance), false, Ink::grey}};
-  const bool has_gravity = summary.facts.gravity > 0.0;
+  const bool has_gravity = std::string_view(error_unit(summary)) == "g h";
   page::Text caption = page::words(
       "run.error", {{"unit", page::words(has_gravity ? "run.error.gravity" : "run.error.none",
                                          {{"scale", page::quantity(scale, "m/s")}})},

@@ -29,4 +29,11 @@ inline WallSpec floor_at_zero(double friction) {
   return wall;
 }
 
+inline WallSpec moved_floor(double friction, const ImposedMotion& motion) {
+  WallSpec wall = floor_at_zero(friction);
+  wall.motion = WallMotion::prescribed;
+  wall.imposed = std::make_shared<const ImposedMotion>(motion);
+  return wall;
+}
+
 }  // namespace ballast

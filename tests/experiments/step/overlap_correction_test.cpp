@@ -121,11 +121,9 @@ TEST_CASE("the overlap correction lifts a sunken cube without giving it velocity
 TEST_CASE("on a floor that is moved the correction is that of the floor at rest") {
   for (const double speed : {-0.1, 0.0, 0.1}) {
     Scene scene = empty_scene();
-    scene.walls.push_back(floor_at_zero(0.4));
-    scene.walls.back().motion = WallMotion::prescribed;
     ImposedMotion motion;
     motion.shift.rate = Vec3(0, 0, speed);
-    scene.walls.back().imposed = std::make_shared<const ImposedMotion>(motion);
+    scene.walls.push_back(moved_floor(0.4, motion));
     scene.bodies.push_back(cube("body", 0.1, 2.0, Vec3(0, 0, 0.05 - overlap)));
     scene.bodies.back().velocity = Vec3(0, 0, speed);
     scene.solver.tolerance = 1e-9;

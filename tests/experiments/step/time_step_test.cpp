@@ -49,12 +49,10 @@ TEST_CASE("a force that closes a gap within a step is met by the floor") {
 TEST_CASE("a floor that starts to move where a step ends does the work that the body has") {
   Scene scene = empty_scene();
   scene.gravity = Vec3::Zero();
-  scene.walls.push_back(floor_at_zero(0.4));
-  scene.walls[0].motion = WallMotion::prescribed;
   ImposedMotion kick;
   const Vec3 rest = Vec3::Zero();
   kick.shift.table = {{0.0, rest}, {0.01, rest}, {0.02, Vec3(0, 0, 0.01)}};
-  scene.walls[0].imposed = std::make_shared<const ImposedMotion>(kick);
+  scene.walls.push_back(moved_floor(0.4, kick));
   scene.bodies.push_back(cube("kicked", 0.1, 2.0, Vec3(0, 0, 0.05)));
   scene.solver.tolerance = 1e-9;
   MotionState state;
