@@ -31,6 +31,13 @@ double reach_of(const RigidBody& body, const MotionState& state, int b, double h
          (state.velocity[b].norm() + state.spin[b].norm() * radius + (g + std::max(g, pushed)) * h);
 }
 
+/// Bodies overlap by the slop, and by little more.
+DetectionSettings detection_settings(const Scene& scene) {
+  DetectionSettings settings = scene.detection;
+  settings.joint = 2.0 * scene.correction.slop;
+  return settings;
+}
+
 }  // namespace
 
 double velocity_scale(const Scene& scene) {
@@ -66,7 +73,7 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int
       velocity_scale_(velocity_scale(scene)),
       spec_(scene.solver),
       driven_wall_(driven_wall),
-      detector_(contact_shapes(system), scene.detection, system.period),
+      detector_(contact_shapes(system), detection_settings(scene), system.period),
       assembler_(system),
       correction_(system, scene.correction),
       solver_(make_solver(spec_.name)),

@@ -24,6 +24,47 @@ std::uint64_t crossing_key(int reference, std::span<const CollisionShape::Corner
   return vertex_key(reference, corner);
 }
 
+/// Side k of the prism on a face, along its normal or along `direction`.
+CollisionShape::Side prism_side(const CollisionShape::FaceView& face, size_t k,
+                                const Vec3* direction) {
+  if (!direction) return face.sides[k];
+  const Vec3& from = face.corners[k].position;
+  const Vec3 along = face.corners[k + 1 < face.corners.size() ? k + 1 : 0].position - from;
+  CollisionShape::Side side;
+  side.outward = along.cross(*direction).normalized();
+  side.offset = side.outward.dot(from);
+  return side;
+}
+
+bool may_be_joint(const SeparatingAxis& axis, const ManifoldLimits& limits) {
+  return limits.joint >= 0.0 && axis.separation > -limits.joint;
+}
+
+/// The whole incident face ends within limits.joint of one side of the prism, or beyond it.
+bool is_joint(const PairFrame& pair, const SeparatingAxis& axis, const ManifoldLimits& limits,
+              int reference, const CollisionShape::FaceView& face,
+              std::span<const CollisionShape::Corner> incident, const Vec3* direction = nullptr) {
+  if (!may_be_joint(axis, limits)) return false;
+  for (size_t k = 0; k < face.corners.size(); ++k) {
+    const CollisionShape::Side side = prism_side(face, k, direction);
+    if (std::ranges::all_of(incident, [&](const CollisionShape::Corner& corner) {
+          const Vec3 place = pair.other[reference] * corner.position;
+          return side.outward.dot(place) - side.offset >= -limits.joint;
+        }))
+      return true;
+  }
+  return false;
+}
+
+/// One of the two edges ends within limits.joint of where they cross, or before.
+bool is_joint(const SeparatingAxis& axis, const ManifoldLimits& limits,
+              const CollisionShape::Edge& a, const CollisionShape::Edge& b) {
+  const auto ends = [&](double at, double length) {
+    return std::min(at, 1.0 - at) * length <= limits.joint;
+  };
+  return may_be_joint(axis, limits) && (ends(axis.at_a, a.length) || ends(axis.at_b, b.length));
+}
+
 }  // namespace
 
 std::span<ClippedPoint> FaceClipper::clip(const PairFrame& pair, int reference,
@@ -36,16 +77,7 @@ std::span<ClippedPoint> FaceClipper::clip(const PairFrame& pair, int reference,
                         vertex_key(1 - reference, corner.vertex), corner.edge});
   const size_t count = face.corners.size();
   for (size_t k = 0; k < count && !polygon_.empty(); ++k) {
-    CollisionShape::Side side;
-    if (!direction) {
-      side = face.sides[k];
-    } else {
-      const Vec3& from = face.corners[k].position;
-      const Vec3 along = face.corners[k + 1 < count ? k + 1 : 0].position - from;
-      side.outward = along.cross(*direction).normalized();
-      side.offset = side.outward.dot(from);
-    }
-    clip_by_side(reference, face, static_cast<int>(k), side, thickness);
+    clip_by_side(reference, face, static_cast<int>(k), prism_side(face, k, direction), thickness);
   }
   return polygon_;
 }
@@ -112,28 +144,28 @@ int incident_face(const ShapePair& pair, int reference, int face, int vertex) {
 }
 
 std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair,
-                                                       const SeparatingAxis& axis, double alert,
-                                                       int max_points) {
+                                                       const SeparatingAxis& axis,
+                                                       const ManifoldLimits& limits) {
   const AxisFeature& feature = axis.feature;
   if (feature.kind == AxisKind::edges) {
     const CollisionShape::Edge a = pair.shape[0]->edge(feature.a),
                                b = pair.shape[1]->edge(feature.b);
     const EdgesMeeting meeting(pair, axis, a, b);
-    if (meeting.is_sharp()) return lone_point(pair, axis, edges_cross(pair, axis, a, b));
+    if (meeting.is_sharp()) return crossing(pair, axis, a, b, limits);
     pair.shape[0]->write(meeting.face_a, face_of_[0]);
     pair.shape[1]->write(meeting.face_b, face_of_[1]);
     const CollisionShape::FaceView beside_a = face_of_[0].view(), beside_b = face_of_[1].view();
-    return points(pair, axis, meeting, {a, b, beside_a, beside_b}, alert, max_points);
+    return points(pair, axis, meeting, {a, b, beside_a, beside_b}, limits);
   }
   const int reference = feature.reference(), face = feature.face();
   const CollisionShape &own = *pair.shape[reference], &other = *pair.shape[1 - reference];
   const Vec3 vertex = other.vertices().xyz(axis.support);
-  if (is_lone_vertex(pair, axis, alert))
+  if (is_lone_vertex(pair, axis, limits.alert))
     return lone_point(pair, axis, vertex_on_face(pair, axis, own.face(face), vertex));
   own.write(face, face_of_[reference]);
   other.write(incident_face(pair, reference, face, axis.support), face_of_[1 - reference]);
   return points(pair, axis, {face_of_[reference].view(), face_of_[1 - reference].corners, vertex},
-                alert, max_points);
+                limits);
 }
 
 std::span<const ManifoldPoint> ContactManifold::lone_point(const PairFrame& pair,
@@ -141,6 +173,15 @@ std::span<const ManifoldPoint> ContactManifold::lone_point(const PairFrame& pair
                                                            const ClippedPoint& place) {
   points_.assign(1, contact_at(pair, axis, place));
   return points_;
+}
+
+std::span<const ManifoldPoint> ContactManifold::crossing(const PairFrame& pair,
+                                                         const SeparatingAxis& axis,
+                                                         const CollisionShape::Edge& a,
+                                                         const CollisionShape::Edge& b,
+                                                         const ManifoldLimits& limits) {
+  if (is_joint(axis, limits, a, b)) return {};
+  return lone_point(pair, axis, edges_cross(pair, axis, a, b));
 }
 
 /// The points of the candidates that are kept, in the order of their keys.
@@ -160,8 +201,8 @@ std::span<const ManifoldPoint> ContactManifold::chosen_points(const PairFrame& p
 std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
                                                        const SeparatingAxis& axis,
                                                        const EdgesMeeting& meeting,
-                                                       const EdgeOnEdge& edges, double alert,
-                                                       int max_points) {
+                                                       const EdgeOnEdge& edges,
+                                                       const ManifoldLimits& limits) {
   candidates_.clear();
   const ClippedPoint crossing = edges_cross(pair, axis, edges.a, edges.b);
   const int reference = meeting.reference();
@@ -169,25 +210,28 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
                                  &incident = reference == 0 ? edges.beside_b : edges.beside_a;
   const Vec3 direction =
       reference == 0 ? axis.direction : Vec3(-(pair.other[1].rotation * axis.direction));
+  if (is_joint(pair, axis, limits, reference, face, incident.corners, &direction)) return {};
   const std::span<ClippedPoint> corners = clipper_.clip(
       pair, reference, face, incident.corners, clipping_thickness(pair.size()), &direction);
   set_heights(corners, face.face, direction);
   bool has_crossing = false;
   for (ClippedPoint p : corners) {
-    if (p.height > alert) continue;
+    if (p.height > limits.alert) continue;
     has_crossing |= p.key == crossing.key;
     // from a's surface, where the corners of b's face cut, to b's
     if (reference == 1) p.position = pair.other[0] * p.position + p.height * axis.direction;
     candidates_.push_back(p.key == crossing.key ? crossing : p);
   }
   if (!has_crossing) candidates_.push_back(crossing);
-  return chosen_points(pair, axis, max_points);
+  return chosen_points(pair, axis, limits.max_points);
 }
 
 std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
                                                        const SeparatingAxis& axis,
-                                                       const FaceOnFace& faces, double alert,
-                                                       int max_points) {
+                                                       const FaceOnFace& faces,
+                                                       const ManifoldLimits& limits) {
+  if (is_joint(pair, axis, limits, axis.feature.reference(), faces.reference, faces.incident))
+    return {};
   candidates_.clear();
   const CollisionShape::Face& face = faces.reference.face;
   const ClippedPoint touching = vertex_on_face(pair, axis, face, faces.vertex);
@@ -195,10 +239,10 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
       clipper_.clip(pair, axis.feature.reference(), faces.reference, faces.incident,
                     clipping_thickness(pair.size()));
   set_heights(corners, face);
-  double deepest = alert + pair.size();
+  double deepest = limits.alert + pair.size();
   for (const ClippedPoint& point : corners) {
     deepest = std::min(deepest, point.height);
-    if (point.height <= alert) candidates_.push_back(point);
+    if (point.height <= limits.alert) candidates_.push_back(point);
   }
   // No corner is as deep as the touching vertex: it lies beside the face and was cut off.
   if (deepest > touching.height + proof_margin(pair)) {
@@ -206,7 +250,7 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
                   [&](const ClippedPoint& point) { return point.key == touching.key; });
     candidates_.push_back(touching);
   }
-  return chosen_points(pair, axis, max_points);
+  return chosen_points(pair, axis, limits.max_points);
 }
 
 /// Keeps the deepest point, then the one farthest from it, then again and again the one that adds

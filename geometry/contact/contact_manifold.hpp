@@ -16,6 +16,16 @@ int incident_face(const ShapePair& pair, int reference, int face, int vertex);
 /// Cosines nearer than this are near-ties.
 constexpr double equal_cosines = 1e-12;
 
+/// Which points a pair gets.
+struct ManifoldLimits {
+  double alert;    ///< the largest gap of a point [m]
+  int max_points;  ///< of a pair; the deepest is always kept
+  /// A joint of bodies that do not move freely: a face (or edge) that ends within this [m] of the
+  /// other one's side (or end), or before it, only lies beside it, and has no points while the
+  /// overlap is less than this. Below 0: there is no joint.
+  double joint = -1.0;
+};
+
 /// What a manifold is made from when the axis is a face: that face, the corners of the incident
 /// face, and the axis' support vertex, each in its own body's frame. Of the reference face's
 /// corners the numbers alone are read.
@@ -82,18 +92,23 @@ bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, double al
 /// Holds scratch memory; one per thread.
 class ContactManifold {
  public:
-  /// Points of the pair with gap <= alert [m], at most `max_points` of them, sorted by key. The
-  /// axis must be the pair's best and its separation <= alert. The smallest gap equals the
-  /// separation: the touching vertex is added if clipping has lost it. Valid until the next call.
+  /// Points of the pair within the limits, sorted by key. The axis must be the pair's best and its
+  /// separation <= alert. Unless it is a joint, the smallest gap equals the separation: the
+  /// touching vertex is added if clipping has lost it. Valid until the next call.
   std::span<const ManifoldPoint> points(const ShapePair& pair, const SeparatingAxis& axis,
-                                        double alert, int max_points);
+                                        const ManifoldLimits& limits);
   /// The same from the features alone, where nothing proves that the point is alone; of two edges,
   /// if they are flat.
   std::span<const ManifoldPoint> points(const PairFrame& pair, const SeparatingAxis& axis,
-                                        const FaceOnFace& faces, double alert, int max_points);
+                                        const FaceOnFace& faces, const ManifoldLimits& limits);
   std::span<const ManifoldPoint> points(const PairFrame& pair, const SeparatingAxis& axis,
                                         const EdgesMeeting& meeting, const EdgeOnEdge& edges,
-                                        double alert, int max_points);
+                                        const ManifoldLimits& limits);
+  /// The point where two edges cross that are not flat; none at a joint.
+  std::span<const ManifoldPoint> crossing(const PairFrame& pair, const SeparatingAxis& axis,
+                                          const CollisionShape::Edge& a,
+                                          const CollisionShape::Edge& b,
+                                          const ManifoldLimits& limits);
   /// The only point of the pair.
   std::span<const ManifoldPoint> lone_point(const PairFrame& pair, const SeparatingAxis& axis,
                                             const ClippedPoint& place);

@@ -38,6 +38,7 @@ inline std::vector<ConvexPart> convex_parts(const ContactShape& shape) {
 
 struct DetectionSettings {
   int max_points = 4;     ///< per pair of polyhedra; the deepest is always kept
+  double joint = 0.0;     ///< see ManifoldLimits; for pairs with a body that is fixed [m]
   double skin = 0.0;      ///< broad-phase margin [m]; 0 = chosen from the shapes
   bool use_cache = true;  ///< start from last step's axis; off: every pair from scratch (the same
                           ///< contacts, slower)

@@ -15,6 +15,7 @@ DetectedBodies::DetectedBodies(std::vector<ContactShape> bodies)
   std::map<const Polyhedron*, int> number;
   std::vector<const Polyhedron*> distinct;
   for (const ContactShape& body : shapes) {
+    is_fixed.push_back(body.fixed);
     table_of.push_back(-1);
     if (!body.polyhedron) continue;
     const auto [at, is_new] = number.emplace(body.polyhedron, static_cast<int>(distinct.size()));
@@ -192,13 +193,15 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   const RelativePose b_in_a{rotation.transpose() * bodies_.rotations[b],
                             rotation.transpose() * between};
   candidate.apart_below = -1.0;
+  const ManifoldLimits limits{alert, settings_.max_points,
+                              bodies_.is_fixed[a] || bodies_.is_fixed[b] ? settings_.joint : -1.0};
   SeparatingAxis axis;
   const double turn = bodies_.travel[a].turn + bodies_.travel[b].turn;
   if (settings_.use_cache && candidate.touching >= 0) {
     const PairFrame pair(bodies_.bounds[a], bodies_.bounds[b], b_in_a);
     std::span<const ManifoldPoint> points;
-    switch (records_.touching[candidate.touching].look(pair, turn, alert, settings_.max_points,
-                                                       manifold_, axis, points)) {
+    switch (
+        records_.touching[candidate.touching].look(pair, turn, limits, manifold_, axis, points)) {
       case TouchingPair::Look::touching:
         ++counters_.proved_axes;
         return append(candidate, pair, axis, points, contacts);
@@ -225,8 +228,7 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
     if (candidate.touching < 0) candidate.touching = new_place();
     records_.touching[candidate.touching].record(pair, axis, turn, heights_);
   }
-  append(candidate, pair, axis, manifold_.points(pair, axis, alert, settings_.max_points),
-         contacts);
+  append(candidate, pair, axis, manifold_.points(pair, axis, limits), contacts);
 }
 
 void DetectionPart::append(const CandidatePair& candidate, const PairFrame& frame,

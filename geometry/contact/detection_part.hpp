@@ -29,6 +29,7 @@ struct DetectedBodies {
   }
 
   std::vector<ContactShape> shapes;
+  std::vector<char> is_fixed;
   std::vector<char> is_image;          ///< of a body in another period: planes meet the body itself
   std::vector<CollisionShape> tables;  ///< one per distinct polyhedron, in the order of first use
   std::vector<int> table_of;           ///< of each body; -1 for planes

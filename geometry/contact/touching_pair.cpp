@@ -100,19 +100,19 @@ void TouchingPair::record_faces(const ShapePair& pair, int support, double turn,
   }
 }
 
-TouchingPair::Look TouchingPair::look(const PairFrame& pair, double turn, double alert,
-                                      int max_points, ContactManifold& manifold,
+TouchingPair::Look TouchingPair::look(const PairFrame& pair, double turn,
+                                      const ManifoldLimits& limits, ContactManifold& manifold,
                                       SeparatingAxis& axis,
                                       std::span<const ManifoldPoint>& points) const {
   if (const auto* faces = std::get_if<Faces>(&contact_))
-    return look_at(*faces, pair, turn, alert, max_points, manifold, axis, points);
+    return look_at(*faces, pair, turn, limits, manifold, axis, points);
   if (const auto* edges = std::get_if<Edges>(&contact_))
-    return look_at(*edges, pair, alert, max_points, manifold, axis, points);
+    return look_at(*edges, pair, limits, manifold, axis, points);
   return Look::undecided;
 }
 
 TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pair, double turn,
-                                         double alert, int max_points, ContactManifold& manifold,
+                                         const ManifoldLimits& limits, ContactManifold& manifold,
                                          SeparatingAxis& axis,
                                          std::span<const ManifoldPoint>& points) const {
   const int own = feature_.reference();
@@ -131,7 +131,7 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
     return Look::undecided;  // another vertex may be the lowest
   const double separation = face_separation_at(pair, own, reference, low.height);
   axis.separation = separation;
-  if (separation > alert) return Look::apart;
+  if (separation > limits.alert) return Look::apart;
   // The axis and its proof.
   const CollisionShape::Corner& support = incident[low.place];
   const auto side_at = [&](int k) -> const CollisionShape::Side& { return sides[k]; };
@@ -141,7 +141,7 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
   axis.clearance = clearance;
   if (!is_proved_best(pair, reference.isolation, axis)) return Look::undecided;
   // One point, or the common part of the two faces if the incident face is the same still.
-  if (is_lone_vertex(pair, axis, alert)) {
+  if (is_lone_vertex(pair, axis, limits.alert)) {
     points =
         manifold.lone_point(pair, axis, vertex_on_face(pair, axis, reference, support.position));
     return Look::touching;
@@ -152,24 +152,24 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
     corners[k] = {faces.corner[k].vertex, faces.corner[k].edge, Vec3::Zero()};
   points = manifold.points(
       pair, axis, {{reference, {corners.data(), sides.size()}, sides}, incident, support.position},
-      alert, max_points);
+      limits);
   return Look::touching;
 }
 
-TouchingPair::Look TouchingPair::look_at(const Edges& edges, const PairFrame& pair, double alert,
-                                         int max_points, ContactManifold& manifold,
+TouchingPair::Look TouchingPair::look_at(const Edges& edges, const PairFrame& pair,
+                                         const ManifoldLimits& limits, ContactManifold& manifold,
                                          SeparatingAxis& axis,
                                          std::span<const ManifoldPoint>& points) const {
   const std::optional<EdgeSeparation> facet = edge_facet(pair, edges.a, edges.b);
   if (!facet || facet->nearly_parallel) return Look::undecided;
   axis.separation = facet->separation;
-  if (facet->separation > alert) return Look::apart;
+  if (facet->separation > limits.alert) return Look::apart;
   axis = edge_axis(pair, feature_, edges.a, edges.b, *facet);
   if (!is_proved_best(pair, 1.0, axis)) return Look::undecided;
   // The crossing alone, or the common part of the faces beside the edges if they are the same.
   const EdgesMeeting meeting(pair, axis, edges.a, edges.b);
   if (meeting.is_sharp()) {
-    points = manifold.lone_point(pair, axis, edges_cross(pair, axis, edges.a, edges.b));
+    points = manifold.crossing(pair, axis, edges.a, edges.b, limits);
     return Look::touching;
   }
   if (meeting.face_a != edges.face[0] || meeting.face_b != edges.face[1]) return Look::undecided;
@@ -182,7 +182,7 @@ TouchingPair::Look TouchingPair::look_at(const Edges& edges, const PairFrame& pa
   points = manifold.points(
       pair, axis, meeting,
       {edges.a, edges.b, {face_a, edges.beside[0].all(), {}}, {face_b, edges.beside[1].all(), {}}},
-      alert, max_points);
+      limits);
   return Look::touching;
 }
 

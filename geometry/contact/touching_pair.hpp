@@ -22,10 +22,10 @@ class TouchingPair {
 
   enum class Look { undecided, apart, touching };
   /// Looks at the pair in its present pose.
-  /// apart: the axis separates by more than `alert` [m]; of `axis` the separation is set.
+  /// apart: the axis separates by more than limits.alert; of `axis` the separation is set.
   /// touching: the axis is proved to be the best, and `points` are its points; axis.clearance is
   /// then a lower bound. They are valid until the manifold is asked again.
-  Look look(const PairFrame& pair, double turn, double alert, int max_points,
+  Look look(const PairFrame& pair, double turn, const ManifoldLimits& limits,
             ContactManifold& manifold, SeparatingAxis& axis,
             std::span<const ManifoldPoint>& points) const;
 
@@ -72,10 +72,10 @@ class TouchingPair {
 
   void record_edges(const ShapePair& pair, const SeparatingAxis& axis);
   void record_faces(const ShapePair& pair, int support, double turn, Heights& heights);
-  Look look_at(const Faces& faces, const PairFrame& pair, double turn, double alert, int max_points,
+  Look look_at(const Faces& faces, const PairFrame& pair, double turn, const ManifoldLimits& limits,
                ContactManifold& manifold, SeparatingAxis& axis,
                std::span<const ManifoldPoint>& points) const;
-  Look look_at(const Edges& edges, const PairFrame& pair, double alert, int max_points,
+  Look look_at(const Edges& edges, const PairFrame& pair, const ManifoldLimits& limits,
                ContactManifold& manifold, SeparatingAxis& axis,
                std::span<const ManifoldPoint>& points) const;
 

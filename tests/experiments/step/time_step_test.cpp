@@ -3,6 +3,7 @@
 #include "experiments/step/time_step.hpp"
 
 #include <limits>
+#include <numbers>
 
 #include "tests/catch.hpp"
 #include "tests/support/cube_scene.hpp"
@@ -68,6 +69,35 @@ TEST_CASE("a floor that starts to move where a step ends does the work that the 
   }
   CHECK(state.velocity[0].z() == Approx(1.0).epsilon(1e-6));
   CHECK(work - dissipated == Approx(1.0).epsilon(1e-6));
+}
+
+TEST_CASE("a cube slides over the joints of a floor of fixed boxes as over one body") {
+  constexpr double side = 0.2, v = 1.0, mu = 0.4, exact = v * v / (2 * mu * 9.81);
+  for (const double heading : {0.0, 0.3, std::numbers::pi / 4})
+    for (const double gap : {-1e-6, 0.0, 1e-6}) {
+      Scene scene = empty_scene();
+      scene.friction = mu;
+      scene.solver.tolerance = 1e-6;
+      const Vec3 ahead(std::cos(heading), std::sin(heading), 0.0);
+      scene.bodies.push_back(cube("slides", 0.1, 1.0, Vec3(-0.05, -0.05, 0.05 + gap)));
+      scene.bodies[0].velocity = v * ahead;
+      for (int x = 0; x < 3; ++x)
+        for (int y = 0; y < 3; ++y) {
+          scene.bodies.push_back(cube("tile", side, 1.0, Vec3(side * x, side * y, -0.5 * side)));
+          scene.bodies.back().free = {false, false, false};
+          scene.bodies.back().free_rotation = false;
+        }
+      MotionState state;
+      const MechanicalSystem system = make_system(scene, state);
+      TimeStepper stepper(system, scene, -1);
+      StepMemory memory;
+      while (state.step < 400) stepper.step(state, memory);
+      const Vec3 way = state.pose[0].position - Vec3(-0.05, -0.05, 0.05 + gap);
+      INFO("heading " << heading << ", gap " << gap << ": " << way.transpose());
+      CHECK(way.dot(ahead) == Approx(exact).epsilon(1e-3));
+      CHECK(way.cross(ahead).norm() < 1e-5);
+      CHECK(state.velocity[0].norm() < 1e-6);
+    }
 }
 
 TEST_CASE("however far a body turns within a step, energy and angular momentum are kept") {

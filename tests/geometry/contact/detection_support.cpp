@@ -127,7 +127,7 @@ Contact contact_of(const ShapePair& pair, double alert, int max_points) {
   AxisFeature hint;
   if (is_separated(search.find(pair, alert, hint, contact.axis))) return contact;
   contact.normal = contact_normal(pair, contact.axis);
-  const auto points = manifold.points(pair, contact.axis, alert, max_points);
+  const auto points = manifold.points(pair, contact.axis, {alert, max_points});
   contact.points.assign(points.begin(), points.end());
   return contact;
 }
