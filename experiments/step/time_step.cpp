@@ -191,15 +191,14 @@ void TimeStepper::solve(StepMemory& memory, StepRecord& record) {
 
 /// Works on the mean of the velocities at the step's two ends, each on its own; u_mean = H v_mean +
 /// that of the prescribed walls.
-void TimeStepper::account_energy(double begin_time, const StepMemory& memory, StepRecord& record) {
+void TimeStepper::account_energy(StepRecord& record) {
   const Eigen::VectorXd& v0 = v_before_;
   const Eigen::VectorXd& v1 = runner_.body_velocity();
   const std::vector<double>& mass = assembler_.mass();
   const double contact_power =
       0.5 * runner_.body_impulse().dot(v0 + v1);  // r . H v_mean = H^T r . v_mean
   const double wall_power =
-      0.5 * (assembler_.imposed_power(memory.contacts, begin_time, impulses_) +
-             assembler_.imposed_power(impulses_));
+      0.5 * (assembler_.imposed_power_before(impulses_) + assembler_.imposed_power(impulses_));
   record.dissipated = -(contact_power + wall_power);
   // T' - T = (v' - v) . M v_mean: the work of each impulse of the step is its product with the mean
   // of the velocities before and after.
@@ -305,7 +304,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   // The books are of the velocities, the correction is of the poses.
   run_parts(team_.get(), 2, [&](int part) {
     if (part) {
-      account_energy(begin_time, memory, record);
+      account_energy(record);
       record.energy_gained = gained_energy();
       account_contacts(memory, record);
       return;

@@ -68,7 +68,7 @@ class TimeStepper {
   void detect(const MotionState& mid, std::vector<ContactPoint>& contacts);
   void carry(const StepMemory& memory);
   void solve(StepMemory& memory, StepRecord& record);
-  void account_energy(double begin_time, const StepMemory& memory, StepRecord& record);
+  void account_energy(StepRecord& record);
   double gained_energy();
   void account_contacts(const StepMemory& memory, StepRecord& record);
   void finish_motion(double end_time, MotionState& state);

@@ -184,7 +184,8 @@ void ProblemAssembler::write_rows(const StepInput& step) {
 /// What the velocity at the contacts has besides H v: imposed motions; open gaps or restitution.
 void ProblemAssembler::write_bias(const StepInput& step) {
   DynamicsForm& dynamics = problem_.dynamics;
-  imposed_part(step.contacts, step.end_time, dynamics.bias);
+  imposed_part(step, step.end_time, dynamics.bias);
+  imposed_part(step, step.state.time, imposed_before_);
   if (some_motion_is_imposed_) imposed_ = dynamics.bias;
   // Without restitution an open point may close its gap within the step: u_N + gap / h >= 0.
   for_contacts([&](int c) {
@@ -196,12 +197,11 @@ void ProblemAssembler::write_bias(const StepInput& step) {
   // Newton's law: u_N+ + e u_N- >= 0 for approaching points
   rebound_.assign(problem_.contact_count(), 0.0);
   pack(step.state, v_before_);
-  imposed_part(step.contacts, step.state.time, u_before_);
   // The normal part of H v before the step: the first row of each block, one entry per unknown.
   for (int c = 0; c < problem_.contact_count(); ++c) {
     const int rows = problem_.contact_rows(c);
     const double* block = dynamics.h.data() + dynamics.h_begin[c];
-    double approach = u_before_[problem_.row_begin[c]];
+    double approach = imposed_before_[problem_.row_begin[c]];
     for (int body : {dynamics.body_a[c], dynamics.body_b[c]})
       for (int d = 0; d < dynamics.body_dofs(body); ++d, block += rows)
         approach += *block * v_before_[dynamics.dof_begin[body] + d];
@@ -211,36 +211,36 @@ void ProblemAssembler::write_bias(const StepInput& step) {
   }
 }
 
-/// Zero of what moves freely or not at all.
-Vec3 ProblemAssembler::imposed_velocity(int body, const Vec3& place, double time) const {
+/// Zero of what moves freely or not at all. The place is where the contact was detected. The centre
+/// of the other body is taken to where it is at that time if it goes along: otherwise a body that
+/// sticks to a turning one would leave its circle along the tangent, by w^2 h r / 2 a second.
+Vec3 ProblemAssembler::imposed_velocity(const StepInput& step, int body, int other,
+                                        const Vec3& place, double time) const {
   const RigidBody& b = system_.bodies[body];
   if (!b.imposed) return Vec3::Zero();
   const ImposedMotion& motion = b.imposed->motion;
-  if (b.is_wall() || !system_.period.repeats()) return motion.velocity_at(time, place);
-  // The motion's centre is not wrapped into the period, the place is.
-  const Vec3 centre = motion.pose_at(time, b.imposed->start).position;
-  return motion.velocity_at(time, centre + system_.period.nearest(place - centre));
+  const double detected = step.state.time + 0.5 * step.h;
+  const Vec3 centre = motion.centre + motion.shift.at(detected);
+  const Vec3 pivot = system_.bodies[other].is_wall() ? place : step.state.pose[other].position;
+  const Quat turn = rotation_by((motion.turn.at(time) - motion.turn.at(detected)) * motion.axis);
+  const Vec3 arm =
+      turn * system_.period.nearest(pivot - centre) + system_.period.nearest(place - pivot);
+  return motion.shift.rate_at(time) + motion.spin_at(time).cross(arm);
 }
 
-void ProblemAssembler::imposed_part(std::span<const ContactPoint> contacts, double time,
+void ProblemAssembler::imposed_part(const StepInput& step, double time,
                                     Eigen::VectorXd& rows) const {
   rows.setZero(problem_.row_count());
   if (!some_motion_is_imposed_) return;
   for (size_t k = 0; k < detected_.size(); ++k) {
-    const ContactPoint& contact = contacts[detected_[k]];
-    const Vec3 velocity = imposed_velocity(contact.body_b, contact.position, time) -
-                          imposed_velocity(contact.body_a, contact.position, time);
+    const ContactPoint& contact = step.contacts[detected_[k]];
+    const int a = contact.body_a, b = contact.body_b;
+    const Vec3 velocity = imposed_velocity(step, b, a, contact.position, time) -
+                          imposed_velocity(step, a, b, contact.position, time);
     const int n = problem_.contact_rows(static_cast<int>(k));
     const Mat3 frame = frame_of(contact.normal, first_tangents_[k]);
     rows.segment(problem_.row_begin[k], n) = (frame * velocity).head(n);
   }
-}
-
-double ProblemAssembler::imposed_power(std::span<const ContactPoint> contacts, double time,
-                                       const Impulses& r) {
-  if (!some_motion_is_imposed_) return 0.0;
-  imposed_part(contacts, time, u_before_);
-  return r.dot(u_before_);
 }
 
 void ProblemAssembler::to_rows(std::span<const Vec3> world, std::span<const ContactPoint> contacts,

@@ -22,7 +22,7 @@ struct StepInput {
   std::span<const ContactPoint> contacts;
   const Eigen::VectorXd& v_free;  ///< per unknown [m/s, rad/s]; copied, if it is not the problem's
   double h;                       ///< length of the step [s]
-  double end_time;                ///< when imposed motions are taken [s]
+  double end_time;  ///< of the step [s], which began at state.time; contacts are detected midway
 };
 
 /// Turns contacts into a FrictionProblem, step after step, into the same buffers. The masses stay.
@@ -68,11 +68,12 @@ class ProblemAssembler {
   /// Of each row of the problem assembled last what imposed motions make of its velocity at the
   /// step's end [m/s]; empty where nothing is imposed.
   const Eigen::VectorXd& imposed() const { return imposed_; }
-  /// What imposed motions at that time add to r . u [J].
-  double imposed_power(std::span<const ContactPoint> contacts, double time, const Impulses& r);
-  /// The same at the step's end.
+  /// What imposed motions add to r . u at the step's end [J], and at its beginning.
   double imposed_power(const Impulses& r) const {
     return imposed_.size() > 0 ? r.dot(imposed_) : 0.0;
+  }
+  double imposed_power_before(const Impulses& r) const {
+    return imposed_.size() > 0 ? r.dot(imposed_before_) : 0.0;
   }
 
   /// World-frame impulses on body b <-> stacked rows of the problem assembled last.
@@ -84,9 +85,9 @@ class ProblemAssembler {
  private:
   /// Velocity of what follows an imposed motion, at the contacts assembled last, in their frames:
   /// the part of the relative velocity that is not H v. Rows as in the problem.
-  Vec3 imposed_velocity(int body, const Vec3& place, double time) const;
-  void imposed_part(std::span<const ContactPoint> contacts, double time,
-                    Eigen::VectorXd& rows) const;
+  Vec3 imposed_velocity(const StepInput& step, int body, int other, const Vec3& place,
+                        double time) const;
+  void imposed_part(const StepInput& step, double time, Eigen::VectorXd& rows) const;
   /// task(c) for the contacts assembled last, task(b, freedom) for bodies that have one: each works
   /// on what is its own, on any thread.
   template <class Task>
@@ -117,7 +118,7 @@ class ProblemAssembler {
   std::vector<Vec3> first_tangents_;  // T1 of the contacts assembled last
   std::vector<int> detected_;
   FrictionProblem problem_;
-  Eigen::VectorXd v_before_, u_before_, imposed_;
+  Eigen::VectorXd v_before_, imposed_before_, imposed_;
   std::vector<double> restitution_, rebound_;
 };
 

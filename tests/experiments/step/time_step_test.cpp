@@ -100,6 +100,36 @@ TEST_CASE("a cube slides over the joints of a floor of fixed boxes as over one b
     }
 }
 
+TEST_CASE("a cube that sticks to a turning plate goes round, and leaves it where friction ends") {
+  constexpr double radius = 0.2, mu = 0.4;
+  const double limit = std::sqrt(mu * 9.81 / radius);
+  const auto end_of = [&](double rate, double& dissipated) {
+    Scene scene = empty_scene();
+    scene.friction = mu;
+    scene.solver.tolerance = 1e-9;
+    BodySpec plate = cube("plate", 1.0, 1.0, Vec3(0, 0, -0.5));
+    plate.imposed = ImposedMotion{};
+    plate.imposed->centre = plate.pose.position;
+    plate.imposed->turn.rate = rate;
+    scene.bodies = {cube("goes along", 0.05, 1.0, Vec3(radius, 0, 0.025)), plate};
+    scene.bodies[0].velocity = Vec3(0, rate * radius, 0);
+    scene.bodies[0].spin = Vec3(0, 0, rate);
+    MotionState state;
+    const MechanicalSystem system = make_system(scene, state);
+    TimeStepper stepper(system, scene, -1);
+    StepMemory memory;
+    while (state.step < 1000) dissipated += stepper.step(state, memory).dissipated;
+    return state.pose[0].position;
+  };
+  double dissipated = 0.0;
+  const Vec3 end = end_of(0.95 * limit, dissipated);
+  CHECK(end.head<2>().norm() == Approx(radius).epsilon(1e-5));
+  CHECK(std::remainder(std::atan2(end.y(), end.x()) - 0.95 * limit, 2.0 * std::numbers::pi) ==
+        Approx(0.0).margin(1e-4));
+  CHECK(std::abs(dissipated) < 1e-6);
+  CHECK(end_of(1.05 * limit, dissipated).head<2>().norm() > 1.5 * radius);
+}
+
 TEST_CASE("however far a body turns within a step, energy and angular momentum are kept") {
   const Vec3 inertia(1.0, 2.0, 2.5);
   for (const double radians : {0.5, 2.0, 3.0, 30.0, 300.0}) {
