@@ -6,6 +6,7 @@
 
 #include "experiments/external/external_program.hpp"
 #include "experiments/step/step_record.hpp"
+#include "platform/clock.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"
@@ -110,15 +111,23 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
   const auto solver = make_solver(name);
   SolverRun run;
   std::string words;
+  bool is_interrupted = false;
   {
     // Other threads of Python go on.
     const py::gil_scoped_release released;
     if (!is_absolute)
       tolerance *= contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
-    run =
-        SolverRunner().run(*solver, problem, from, {tolerance, max_iterations, max_seconds, true});
+    Budget budget{tolerance, max_iterations, max_seconds, /*keep_history=*/true};
+    budget.is_cancelled = [&, asked = Stopwatch()]() mutable {
+      if (is_interrupted || !asked.has_passed(0.05)) return is_interrupted;
+      asked.restart();
+      const py::gil_scoped_acquire held;
+      return is_interrupted = PyErr_CheckSignals() != 0;
+    };
+    run = SolverRunner().run(*solver, problem, from, budget);
     words = explained(problem, run, tolerance);
   }
+  if (is_interrupted) throw py::error_already_set();
   py::dict d;
   d["impulses"] = in_threes(three_rows(problem, run.solved.impulses));
   d["verdict"] = name_of(run.verdict);

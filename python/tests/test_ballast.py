@@ -2,6 +2,7 @@
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -42,6 +43,17 @@ def chain(n, seed=1):
 
 
 class Problems(unittest.TestCase):
+    def test_ctrl_c_ends_a_solve(self):
+        M, H, mu, v = chain(40)
+        problem = ballast.Problem.from_bodies(M, H, mu, v_free=v)
+        for solver in "pgs", "newton_burst":
+            timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                for _ in range(10**6):
+                    ballast.solve(problem, solver, tolerance=0.0, max_iterations=10**9)
+            timer.join()
+
     def test_both_forms_are_the_same_problem(self):
         M, H, mu, v = chain(12)
         bodies = ballast.Problem.from_bodies(M, H, mu, v_free=v)

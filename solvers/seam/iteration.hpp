@@ -20,7 +20,10 @@ class SolveBook {
 
   int count() const { return count_; }  ///< of iterations
   double seconds() const { return watch_.seconds() - startup_; }
-  bool is_late() const { return watch_.has_passed(budget_.max_seconds + startup_); }
+  bool is_late() const {
+    return watch_.has_passed(budget_.max_seconds + startup_) ||
+           (budget_.is_cancelled && budget_.is_cancelled());
+  }
   /// Small enough to stop [m/s].
   bool reached(double error) const { return error <= budget_.tolerance * (1.0 - stop_margin); }
   /// So much of the time that has passed was start-up (Solved::startup_seconds): no limit and no

@@ -94,6 +94,9 @@ struct Budget {
   /// of the budget. A Course does not ask.
   std::function<bool(int iterations, double error)> gives_up = {};
 
+  /// Not empty: asked together with the clock; true ends the solve as if its time were over.
+  std::function<bool()> is_cancelled = {};
+
   /// The natural map to plan for [m/s]: the tolerance, or where `fclib` expects its own to be
   /// reached.
   double aim() const;

@@ -94,6 +94,17 @@ TEST_CASE("time runs out") {
   CHECK(iterations > 1);
 }
 
+TEST_CASE("a solve that is cancelled ends at the next look at the clock") {
+  Budget budget{.tolerance = 0.0, .max_iterations = 1000};
+  int asked = 0;
+  budget.is_cancelled = [&] { return ++asked > 10; };
+  const Solved solved = run(budget, {4, 1.5}, harmonic);
+  CHECK(solved.reason == StopReason::time_limit);
+  CHECK(solved.iterations < 11);
+  Course course(budget, Impulses::Zero(3));
+  CHECK(course.over());
+}
+
 TEST_CASE("who has something better to do gives up at a look, but not what is solved") {
   std::vector<int> asked;
   const auto gives_up = [&](int count, double error) {
