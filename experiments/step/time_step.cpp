@@ -34,7 +34,9 @@ double reach_of(const RigidBody& body, const MotionState& state, int b, double h
 /// Bodies overlap by the slop, and by little more.
 DetectionSettings detection_settings(const Scene& scene) {
   DetectionSettings settings = scene.detection;
-  settings.joint = 2.0 * scene.correction.slop;
+  double size = 0.0;
+  for (const BodySpec& body : scene.bodies) size = std::max(size, body.shape->circumradius());
+  settings.joint = std::max(2.0 * scene.correction.slop, 1e-7 * size);
   return settings;
 }
 
@@ -78,7 +80,10 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int
       correction_(system, scene.correction),
       solver_(make_solver(spec_.name)),
       impact_law_(system.highest_restitution()),
-      reach_(system.bodies.size(), 0.0) {
+      reach_(system.bodies.size(), 0.0),
+      some_shape_is_fixed_(std::ranges::any_of(system.bodies, [](const RigidBody& body) {
+        return body.shape.fixed && body.shape.polyhedron;
+      })) {
   if (spec_.change_tolerance > 0.0)
     solver_ = make_change_stopped(std::move(solver_), {spec_.change_tolerance, spec_.change_every});
   if (spec_.threads <= 1) return;
@@ -121,7 +126,14 @@ void TimeStepper::detect(const MotionState& mid, std::vector<ContactPoint>& cont
   const double g = system_.gravity.norm();
   // Two bodies further apart than the sum of their reaches cannot touch within the step.
   for_bodies([&](int b) { reach_[b] = reach_of(system_.bodies[b], mid, b, h_, g); });
-  detector_.detect(mid.pose, reach_, contacts);
+  ahead_.resize(some_shape_is_fixed_ ? mid.pose.size() : 0);
+  if (some_shape_is_fixed_)
+    for_bodies([&](int b) {
+      const auto& imposed = system_.bodies[b].imposed;
+      ahead_[b] = imposed ? imposed->motion.pose_at(mid.time + 1.5 * h_, imposed->start)
+                          : moved(mid.pose[b], mid.velocity[b], mid.spin[b], h_);
+    });
+  detector_.detect(mid.pose, reach_, contacts, ahead_);
 }
 
 /// A contact that was there in the last step begins with the impulse that it had then.

@@ -88,6 +88,8 @@ class TimeStepper {
 
   Impulses impulses_;
   std::vector<double> reach_;
+  const bool some_shape_is_fixed_;  ///< then bodies may pass its edges
+  std::vector<Pose> ahead_;         ///< at the next detection if nothing is met
   std::vector<ContactPoint> old_contacts_;
   std::vector<Vec3> carried_;
   Eigen::VectorXd v_before_;

@@ -89,17 +89,19 @@ void ContactDetector::use_team(WorkerTeam* team, int parts) {
 }
 
 void ContactDetector::detect(std::span<const Pose> poses, std::span<const double> reach,
-                             std::vector<ContactPoint>& contacts) {
+                             std::vector<ContactPoint>& contacts, std::span<const Pose> ahead) {
   State& s = *state_;
   s.check(poses, reach);
   contacts.clear();
   if (s.elements) {
-    s.elements->place(poses, reach);
+    s.elements->place(poses, reach, ahead);
+    ahead = s.elements->ahead();
     poses = s.elements->poses();
     reach = s.elements->reach();
   }
   // Rotations of all bodies once, then the pairs that may touch, then each part's run of pairs.
   s.bodies.take(poses, reach, s.team);
+  s.bodies.ahead = ahead;
   const long rebuilds = s.broad_phase.rebuilds();
   s.broad_phase.update(poses, s.bodies.rotations, s.bodies.reach);
   if (s.broad_phase.rebuilds() != rebuilds) s.share();

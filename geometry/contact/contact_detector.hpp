@@ -26,9 +26,10 @@ class ContactDetector {
 
   /// poses[i]: pose of body i. reach[i] [m]: bound on how far any point of body i moves until the
   /// next detection. A point is reported when its gap <= reach[a] + reach[b]. `contacts` is
-  /// overwritten; no allocation once it has grown.
+  /// overwritten; no allocation once it has grown. `ahead`: the poses at the next detection if
+  /// nothing is met. With them bodies pass fixed ones' edges that would not stop them.
   void detect(std::span<const Pose> poses, std::span<const double> reach,
-              std::vector<ContactPoint>& contacts);
+              std::vector<ContactPoint>& contacts, std::span<const Pose> ahead = {});
 
   const DetectionCounters& counters() const;
 

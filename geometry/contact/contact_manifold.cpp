@@ -37,7 +37,7 @@ CollisionShape::Side prism_side(const CollisionShape::FaceView& face, size_t k,
 }
 
 bool may_be_joint(const SeparatingAxis& axis, const ManifoldLimits& limits) {
-  return limits.joint >= 0.0 && axis.separation > -limits.joint;
+  return limits.is_passing || std::abs(axis.separation) <= limits.joint;
 }
 
 /// The whole incident face ends within limits.joint of one side of the prism, or beyond it.
@@ -117,7 +117,10 @@ void FaceClipper::clip_by_side(int reference, const FaceView& face, int k,
 
 /// All other vertices are at least `clearance` higher and at most a diameter away from the support
 /// vertex, so that the body rises from it with at least the slope clearance / diameter.
-bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, double alert) {
+bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis,
+                    const ManifoldLimits& limits) {
+  const double alert = limits.alert;
+  if (axis.inside <= limits.joint) return false;  // it may be a joint
   const double thickness = clipping_thickness(pair.size());
   const double diameter = 2.0 * pair.bounds[1 - axis.feature.reference()]->circumradius;
   const double slope = axis.clearance / diameter;
@@ -160,7 +163,7 @@ std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair,
   const int reference = feature.reference(), face = feature.face();
   const CollisionShape &own = *pair.shape[reference], &other = *pair.shape[1 - reference];
   const Vec3 vertex = other.vertices().xyz(axis.support);
-  if (is_lone_vertex(pair, axis, limits.alert))
+  if (is_lone_vertex(pair, axis, limits))
     return lone_point(pair, axis, vertex_on_face(pair, axis, own.face(face), vertex));
   own.write(face, face_of_[reference]);
   other.write(incident_face(pair, reference, face, axis.support), face_of_[1 - reference]);
@@ -245,7 +248,7 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
     if (point.height <= limits.alert) candidates_.push_back(point);
   }
   // No corner is as deep as the touching vertex: it lies beside the face and was cut off.
-  if (deepest > touching.height + proof_margin(pair)) {
+  if (!limits.is_passing && deepest > touching.height + proof_margin(pair)) {
     std::erase_if(candidates_,
                   [&](const ClippedPoint& point) { return point.key == touching.key; });
     candidates_.push_back(touching);

@@ -21,9 +21,10 @@ struct ManifoldLimits {
   double alert;    ///< the largest gap of a point [m]
   int max_points;  ///< of a pair; the deepest is always kept
   /// A joint of bodies that do not move freely: a face (or edge) that ends within this [m] of the
-  /// other one's side (or end), or before it, only lies beside it, and has no points while the
-  /// overlap is less than this. Below 0: there is no joint.
+  /// other one's side (or end), or before it, only lies beside it, and has no points while gap and
+  /// overlap are less than this. Below 0: there is no joint.
   double joint = -1.0;
+  bool is_passing = false;  ///< what lies beside has no points, whatever the gap
 };
 
 /// What a manifold is made from when the axis is a face: that face, the corners of the incident
@@ -84,10 +85,11 @@ class FaceClipper {
 /// pair.
 constexpr double clipping_thickness(double size) { return 1e-9 * size; }
 
-/// The axis is a face and its support vertex is the only point within `alert` [m]: everything else
+/// The axis is a face and its support vertex is the only point within limits.alert: everything else
 /// of the other body rises out of reach before it gets to the sides or to another vertex. The
 /// axis' clearance may be a lower bound.
-bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis, double alert);
+bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis,
+                    const ManifoldLimits& limits);
 
 /// Holds scratch memory; one per thread.
 class ContactManifold {

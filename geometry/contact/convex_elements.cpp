@@ -58,7 +58,9 @@ std::vector<ContactShape> ConvexElements::shapes() const {
   return shapes;
 }
 
-void ConvexElements::place(std::span<const Pose> bodies, std::span<const double> reach) {
+void ConvexElements::place(std::span<const Pose> bodies, std::span<const double> reach,
+                           std::span<const Pose> ahead) {
+  ahead_.resize(ahead.empty() ? 0 : elements_.size());
   for (size_t e = 0; e < elements_.size(); ++e) {
     const Element& element = elements_[e];
     const Pose& body = bodies[element.body];
@@ -67,6 +69,12 @@ void ConvexElements::place(std::span<const Pose> bodies, std::span<const double>
     poses_[e].position += element.shape.polyhedron ? period_.wrapped(body.position) : body.position;
     if (element.is_image) poses_[e].position += period_.vector;
     reach_[e] = reach[element.body];
+    if (ahead.empty()) continue;
+    const Pose& next = ahead[element.body];  // whole periods are those of now
+    ahead_[e].rotation = next.rotation * element.pose.rotation;
+    ahead_[e].position = poses_[e].position + (next.position - body.position) +
+                         next.rotation * element.pose.position -
+                         body.rotation * element.pose.position;
   }
 }
 

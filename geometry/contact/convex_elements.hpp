@@ -28,9 +28,11 @@ class ConvexElements {
   bool is_image(int element) const { return elements_[element].is_image; }
   std::vector<ContactShape> shapes() const;
 
-  /// Places the elements with their bodies.
-  void place(std::span<const Pose> bodies, std::span<const double> reach);
+  /// Places the elements with their bodies, now and at the next detection (which may be unknown).
+  void place(std::span<const Pose> bodies, std::span<const double> reach,
+             std::span<const Pose> ahead = {});
   std::span<const Pose> poses() const { return poses_; }
+  std::span<const Pose> ahead() const { return ahead_; }
   std::span<const double> reach() const { return reach_; }
 
   /// Contacts of elements become contacts of bodies: a plane or the smaller index is a, the keys
@@ -47,7 +49,7 @@ class ConvexElements {
   };
   std::vector<Element> elements_;
   Period period_;
-  std::vector<Pose> poses_;
+  std::vector<Pose> poses_, ahead_;
   std::vector<double> reach_;
 };
 

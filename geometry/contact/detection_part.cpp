@@ -1,6 +1,7 @@
 #include "geometry/contact/detection_part.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -193,8 +194,8 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   const RelativePose b_in_a{rotation.transpose() * bodies_.rotations[b],
                             rotation.transpose() * between};
   candidate.apart_below = -1.0;
-  const ManifoldLimits limits{alert, settings_.max_points,
-                              bodies_.is_fixed[a] || bodies_.is_fixed[b] ? settings_.joint : -1.0};
+  ManifoldLimits limits{alert, settings_.max_points,
+                        bodies_.is_fixed[a] || bodies_.is_fixed[b] ? settings_.joint : -1.0};
   SeparatingAxis axis;
   const double turn = bodies_.travel[a].turn + bodies_.travel[b].turn;
   if (settings_.use_cache && candidate.touching >= 0) {
@@ -204,6 +205,7 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
         records_.touching[candidate.touching].look(pair, turn, limits, manifold_, axis, points)) {
       case TouchingPair::Look::touching:
         ++counters_.proved_axes;
+        if (passes(candidate, limits, axis, contacts)) return;
         return append(candidate, pair, axis, points, contacts);
       case TouchingPair::Look::apart:
         ++counters_.cached_separations;
@@ -228,7 +230,37 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
     if (candidate.touching < 0) candidate.touching = new_place();
     records_.touching[candidate.touching].record(pair, axis, turn, heights_);
   }
+  if (passes(candidate, limits, axis, contacts)) return;
   append(candidate, pair, axis, manifold_.points(pair, axis, limits), contacts);
+}
+
+/// A fixed body's side is no obstacle where the motion until the next detection leads past it. Then
+/// another facet separates the bodies there, and it stands for the pair now: where one lies over
+/// the other; elsewhere there is nothing yet to meet. False: the pair's own axis stands.
+bool DetectionPart::passes(const CandidatePair& candidate, ManifoldLimits& limits,
+                           SeparatingAxis& axis, std::vector<ContactPoint>& contacts) {
+  if (limits.joint < 0.0 || bodies_.ahead.empty() || axis.separation < -limits.joint) return false;
+  const int a = candidate.a, b = candidate.b;
+  const auto pair_at = [&](std::span<const Pose> poses) {
+    const Mat3 from_world = poses[a].rotation.toRotationMatrix().transpose();
+    return ShapePair(*bodies_.shape(a), *bodies_.shape(b),
+                     {from_world * poses[b].rotation.toRotationMatrix(),
+                      from_world * (poses[b].position - poses[a].position)});
+  };
+  const ShapePair then = pair_at(bodies_.ahead);
+  const auto closing = evaluate_axis(then, axis.feature, heights_);
+  if (closing && closing->separation >= -limits.joint) return false;
+  AxisFeature feature = axis.feature;
+  SeparatingAxis last;
+  search_.find(then, std::numeric_limits<double>::infinity(), feature, last);
+  if (feature == axis.feature) return false;
+  const ShapePair now = pair_at(bodies_.poses);
+  const auto instead = evaluate_axis(now, feature, heights_);
+  if (!instead) return last.separation >= -limits.joint;  // no facet yet
+  axis = *instead;
+  limits.is_passing = true;
+  append(candidate, now, axis, manifold_.points(now, axis, limits), contacts);
+  return true;
 }
 
 void DetectionPart::append(const CandidatePair& candidate, const PairFrame& frame,

@@ -36,6 +36,7 @@ struct DetectedBodies {
   std::vector<BodyBounds> bounds;      ///< of all bodies, in one place; zero for planes
 
   std::span<const Pose> poses;    ///< of this call
+  std::span<const Pose> ahead;    ///< at the next one, if nothing is met; empty: not known
   std::vector<Mat3> rotations;    ///< R_WB at these poses
   std::span<const double> reach;  ///< of this call [m]
   std::vector<Travel> travel;     ///< since the first call
@@ -75,6 +76,8 @@ class DetectionPart {
   void detect_pair(CandidatePair& pair, std::vector<ContactPoint>& contacts);
   void append(const CandidatePair& candidate, const PairFrame& frame, const SeparatingAxis& axis,
               std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts);
+  bool passes(const CandidatePair& candidate, ManifoldLimits& limits, SeparatingAxis& axis,
+              std::vector<ContactPoint>& contacts);
   void bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const;
   void bound_separated(CandidatePair& pair, double distance, double separation) const;
   double bound_use(const CandidatePair& pair) const;

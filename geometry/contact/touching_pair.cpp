@@ -141,7 +141,7 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
   axis.clearance = clearance;
   if (!is_proved_best(pair, reference.isolation, axis)) return Look::undecided;
   // One point, or the common part of the two faces if the incident face is the same still.
-  if (is_lone_vertex(pair, axis, limits.alert)) {
+  if (is_lone_vertex(pair, axis, limits)) {
     points =
         manifold.lone_point(pair, axis, vertex_on_face(pair, axis, reference, support.position));
     return Look::touching;

@@ -211,21 +211,26 @@ void ProblemAssembler::write_bias(const StepInput& step) {
   }
 }
 
-/// Zero of what moves freely or not at all. The place is where the contact was detected. The centre
-/// of the other body is taken to where it is at that time if it goes along: otherwise a body that
-/// sticks to a turning one would leave its circle along the tangent, by w^2 h r / 2 a second.
+/// Zero of what moves freely or not at all. From the detection until that time the contact moves on
+/// with the centre of the other body. Where that turns the surface's velocity within the tangent
+/// plane, it counts: otherwise a body that sticks to a turning one would leave its circle along the
+/// tangent, by w^2 h r / 2 a second.
 Vec3 ProblemAssembler::imposed_velocity(const StepInput& step, int body, int other,
-                                        const Vec3& place, double time) const {
+                                        const ContactPoint& contact, double time) const {
   const RigidBody& b = system_.bodies[body];
   if (!b.imposed) return Vec3::Zero();
   const ImposedMotion& motion = b.imposed->motion;
   const double detected = step.state.time + 0.5 * step.h;
+  // The motion's centre is not wrapped into the period, the place is.
   const Vec3 centre = motion.centre + motion.shift.at(detected);
-  const Vec3 pivot = system_.bodies[other].is_wall() ? place : step.state.pose[other].position;
-  const Quat turn = rotation_by((motion.turn.at(time) - motion.turn.at(detected)) * motion.axis);
-  const Vec3 arm =
-      turn * system_.period.nearest(pivot - centre) + system_.period.nearest(place - pivot);
-  return motion.shift.rate_at(time) + motion.spin_at(time).cross(arm);
+  const Vec3 position = motion.pose_at(detected, b.imposed->start).position;
+  const Vec3 arm = position - centre + system_.period.nearest(contact.position - position);
+  const Vec3 rate = motion.shift.rate_at(time), spin = motion.spin_at(time);
+  Vec3 turned = Vec3::Zero();
+  if (!system_.bodies[other].is_wall())
+    turned = spin.cross((time - detected) * (step.state.velocity[other] - rate));
+  turned -= contact.normal.dot(turned) * contact.normal;
+  return rate + spin.cross(arm) + turned;
 }
 
 void ProblemAssembler::imposed_part(const StepInput& step, double time,
@@ -235,8 +240,8 @@ void ProblemAssembler::imposed_part(const StepInput& step, double time,
   for (size_t k = 0; k < detected_.size(); ++k) {
     const ContactPoint& contact = step.contacts[detected_[k]];
     const int a = contact.body_a, b = contact.body_b;
-    const Vec3 velocity = imposed_velocity(step, b, a, contact.position, time) -
-                          imposed_velocity(step, a, b, contact.position, time);
+    const Vec3 velocity =
+        imposed_velocity(step, b, a, contact, time) - imposed_velocity(step, a, b, contact, time);
     const int n = problem_.contact_rows(static_cast<int>(k));
     const Mat3 frame = frame_of(contact.normal, first_tangents_[k]);
     rows.segment(problem_.row_begin[k], n) = (frame * velocity).head(n);

@@ -85,7 +85,7 @@ class ProblemAssembler {
  private:
   /// Velocity of what follows an imposed motion, at the contacts assembled last, in their frames:
   /// the part of the relative velocity that is not H v. Rows as in the problem.
-  Vec3 imposed_velocity(const StepInput& step, int body, int other, const Vec3& place,
+  Vec3 imposed_velocity(const StepInput& step, int body, int other, const ContactPoint& contact,
                         double time) const;
   void imposed_part(const StepInput& step, double time, Eigen::VectorXd& rows) const;
   /// task(c) for the contacts assembled last, task(b, freedom) for bodies that have one: each works

@@ -100,6 +100,36 @@ TEST_CASE("a cube slides over the joints of a floor of fixed boxes as over one b
     }
 }
 
+TEST_CASE(
+    "what slides without friction over a joint that bends down, or rolls on, keeps its speed") {
+  BodySpec ball = cube("passes", 0.1, 1.0, Vec3(-0.2, 0.003, 0.1));
+  ball.shape = std::make_shared<const Polyhedron>(make_sphere(0.1, 2));
+  for (const double degrees : {0.0, 1.0, 10.0, 45.0})
+    for (const double ahead : {0.0, 0.0005, 0.00031}) {
+      Scene scene = empty_scene();
+      scene.friction = 0.0;
+      scene.solver.tolerance = 1e-6;
+      const Quat bend = rotation_by(degrees * std::numbers::pi / 180.0 * Vec3::UnitY());
+      for (const double side : {-1.0, 1.0}) {
+        BodySpec tile = cube("tile", 2.0, 1.0, Vec3(side, 0, -1));
+        if (side > 0.0) tile.pose = {bend * tile.pose.position, bend};
+        tile.free = {false, false, false};
+        tile.free_rotation = false;
+        scene.bodies.push_back(tile);
+      }
+      scene.bodies.push_back(degrees > 0.0 ? cube("passes", 0.1, 1.0, Vec3(-0.2, 0, 0.05)) : ball);
+      scene.bodies.back().pose.position.x() -= ahead;
+      scene.bodies.back().velocity = Vec3(2, 0, 0);
+      MotionState state;
+      const MechanicalSystem system = make_system(scene, state);
+      TimeStepper stepper(system, scene, -1);
+      StepMemory memory;
+      while (state.step < 95) stepper.step(state, memory);
+      INFO(degrees << " degrees, ahead " << ahead);
+      CHECK((state.velocity[2] - Vec3(2, 0, 0)).norm() < 1e-6);
+    }
+}
+
 TEST_CASE("a cube that sticks to a turning plate goes round, and leaves it where friction ends") {
   constexpr double radius = 0.2, mu = 0.4;
   const double limit = std::sqrt(mu * 9.81 / radius);

@@ -253,7 +253,7 @@ TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the
         others += p.key != vertex_key(1 - reference, axis->support) && p.height <= reach;
     }
     alone += others == 0;
-    if (!is_lone_vertex(pair, *axis, reach)) continue;
+    if (!is_lone_vertex(pair, *axis, {reach, 4})) continue;
     ++proved;
     if (others > 0) FAIL_CHECK("case " << i << ": " << others << " other points within reach");
   }
