@@ -117,13 +117,6 @@ std::span<const double> RowReader::next() {
   return values_;
 }
 
-void RowReader::rewind() {
-  row_ = 0;
-  errno = 0;
-  if (std::fseek(file_.get(), static_cast<long>(header_bytes_), SEEK_SET) != 0)
-    throw_file_error(path_, "read");
-}
-
 RowWriter::RowWriter(const std::filesystem::path& file, const RowLogHeader& header)
     : path_(file), file_(open_file(file, "wb", "write")), row_size_(header.row_size) {
   const FixedHeader fixed{

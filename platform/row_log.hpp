@@ -44,7 +44,6 @@ class RowReader {
   /// The next row, valid until the next call; empty after the last. Throws Error when a safe row is
   /// damaged.
   std::span<const double> next();
-  void rewind();
 
  private:
   void read(void* data, size_t bytes);

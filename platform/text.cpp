@@ -40,12 +40,11 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 
 std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts(1);
-  for (const char c : text) {
+  for (const char c : text)
     if (c == separator)
       parts.emplace_back();
     else
       parts.back() += c;
-  }
   return parts;
 }
 

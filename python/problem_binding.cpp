@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "experiments/external/external_program.hpp"
 #include "experiments/step/step_record.hpp"
@@ -145,27 +146,17 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
   return d;
 }
 
+/// Lists as they are in the file, in one dimension.
 py::dict captured(const std::filesystem::path& file) {
   CapturedProblem c = read_captured(file);
-  const auto contacts = static_cast<py::ssize_t>(c.gap.size());
-  std::vector<int> bodies;
-  for (size_t k = 0; k < c.id_a.size(); ++k) bodies.insert(bodies.end(), {c.id_a[k], c.id_b[k]});
+  for (Impulses* r : {&c.start, &c.solution}) *r = three_rows(c.problem, *r);
   py::dict d;
-  d["start"] = in_threes(three_rows(c.problem, c.start));
-  d["solution"] = in_threes(three_rows(c.problem, c.solution));
-  d["gap"] = owned(std::move(c.gap));
-  d["frame"] = owned(std::move(c.frame), {contacts, 3, 3});
-  d["position"] = owned(std::move(c.position), {contacts, 3});
-  d["key"] = owned(std::move(c.key));
-  d["bodies"] = owned(std::move(bodies), {contacts, 2});
-  d["h"] = c.h;
-  d["g"] = c.g;
-  d["step"] = c.step;
-  d["time"] = c.time;
-  d["phase"] = c.phase;
-  d["wall_x"] = c.wall_x;
-  d["wall_v"] = c.wall_v;
-  d["load"] = c.load;
+  each_member(c, [&]<class Member>(const char* name, Member& member, auto...) {
+    if constexpr (std::is_arithmetic_v<Member> || std::is_same_v<Member, std::string>)
+      d[name] = member;
+    else
+      d[name] = owned(std::move(member));
+  });
   d["velocity_scale"] = c.velocity_scale();
   d["problem"] = std::move(c.problem);
   return d;

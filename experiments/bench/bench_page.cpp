@@ -1,5 +1,3 @@
-#include "experiments/bench/bench_page.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <csignal>

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "experiments/box/tiles.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/wall_cycles.hpp"
 #include "experiments/run/run.hpp"

@@ -93,7 +93,7 @@ struct ScalingPoint {
 /// Tiles nx * ny near grains / of_tile, as square as can be.
 std::pair<int, int> tiles_for(long grains, int of_tile);
 
-/// Boxes of as many tiles (experiments/box/tiles.hpp) as have about the wanted grains, each
+/// Boxes of as many tiles (tiled_scene()) as have about the wanted grains, each
 /// deposited and then measured in child processes of at most a day, so that its memory is its own.
 /// `said` hears of each. Throws Error where a child fails: out of memory, out of time.
 std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesystem::path& cache,

@@ -4,7 +4,6 @@
 #include <iostream>
 #include <limits>
 
-#include "experiments/box/tiles.hpp"
 #include "experiments/step/time_step.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"

@@ -32,12 +32,21 @@ struct Rain {
 };
 Rain make_rain(const Scene& scene);
 
-/// One of the scene's tiles (deposit.tiles_x, tiles_y): a box of its own.
+// A large box begins as copies of a tile's packing (deposit.tiles_x and tiles_y): it costs the
+// deposit of a small box, and the rest of the copies.
+
+/// One of the scene's tiles: a box of its own.
 Scene tile_of(const Scene& scene);
+/// nx by ny tiles of this box in one: grains.count, box.length and box.width grow with them.
+Scene tiled_scene(const Scene& tile, int nx, int ny);
 /// Where each tile's corner is, along x first [m].
 std::vector<Vec3> tile_corners(const Scene& scene);
 /// Copies of the grains of a tile in the order of the corners; they share the shapes.
 Rain tiled_rain(const Scene& scene, const Rain& tile);
+/// Puts copies of the tile's grains into a state of the tiled box, whose walls stay as they are.
+/// Copies do not overlap, because each lay between its walls. Where those stood, a seam of a
+/// grain's width is loose.
+void place_copies(const Scene& scene, const MotionState& tile, MotionState& state);
 
 /// The system of one stage. `lid`: height of the lid's plane at the start of the stage [m].
 /// `start`, where it is given: grains as they are in the rain, and the walls, all at rest.

@@ -3,7 +3,6 @@
 #include <iostream>
 #include <memory>
 
-#include "experiments/bench/bench_page.hpp"
 #include "experiments/bench/step_bench.hpp"
 #include "experiments/commands/command.hpp"
 #include "platform/atomic_file.hpp"

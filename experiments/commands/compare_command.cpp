@@ -13,7 +13,7 @@
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/compare/comparison.hpp"
 #include "experiments/compare/live_page.hpp"
-#include "experiments/compare/ranking_page.hpp"
+#include "experiments/compare/ranking.hpp"
 #include "experiments/compare/stored_comparison.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
@@ -175,7 +175,7 @@ struct CompareRequest {
   LiveOptions live;
   std::vector<std::string> cases, external;
   ExternalLimits program_limits;
-  CompareOptions comparison;
+  CompareOptions& comparison = live;
   bool report = true, is_quiet = false;
 };
 
@@ -199,10 +199,6 @@ constexpr const char* interrupted =
 /// The closed loop under each backend.
 ExitCode compare_live(CompareRequest& options) {
   LiveOptions& live = options.live;
-  live.solvers = options.comparison.solvers;
-  live.tolerances = options.comparison.tolerances;
-  live.max_seconds = options.comparison.max_seconds;
-  live.folder = options.comparison.folder;
   if (options.is_quiet) live.style = StatusLine::Style::quiet;
   const auto told = [&](const Trajectory& trajectory) {
     if (!options.is_quiet)

@@ -55,15 +55,6 @@ ViewData run_view(const fs::path& folder) {
 
 bool is_picture(const ExportOptions& options) { return options.output.extension() == ".png"; }
 
-/// Where chains are asked for there are forces to draw.
-ViewData view_to_draw(const ExportOptions& options) {
-  ViewData view = run_view(options.source);
-  if (options.still.with_chains && !view.contacts)
-    throw Error(options.source.string() +
-                ": no forces are stored there (--set record.forces=true)");
-  return view;
-}
-
 /// Numbers of the first and last frame that are asked for.
 std::pair<size_t, size_t> chosen_frames(const ExportOptions& options, const ViewData& view) {
   const size_t count = view.frames.size();
@@ -88,7 +79,10 @@ ExitCode say(const std::string& files, const MotionState& first, const MotionSta
 
 /// Stored frames: all, each as a file of its own, one, or some as a picture that moves.
 ExitCode export_frames(const ExportOptions& options) {
-  const ViewData view = view_to_draw(options);
+  const ViewData view = run_view(options.source);
+  if (options.still.with_chains && !view.contacts)
+    throw Error(options.source.string() +
+                ": no forces are stored there (--set record.forces=true)");
   const auto [first, last] = chosen_frames(options, view);
   const auto write = [&](const fs::path& file, size_t from, size_t to) {
     if (!is_picture(options)) return export_state(view.system, view.frames[from], file);

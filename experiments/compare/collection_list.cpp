@@ -1,8 +1,7 @@
-#include "experiments/compare/collection_list.hpp"
-
 #include <cctype>
 #include <set>
 
+#include "experiments/compare/collection.hpp"
 #include "experiments/compare/compare_case.hpp"
 #include "experiments/run/run.hpp"
 #include "platform/text.hpp"

@@ -50,12 +50,12 @@ void for_columns(Row& row, F&& f) {
     row.startup_seconds);  // making the solver, processes, a foreign library's form: in no other
   f("runs", row.runs);     // solves in the child
   f("iterations", row.iterations);
-  f("natural_map_rms", row.natural_map_rms);          // [m/s]
-  f("natural_map_max", row.natural_map_max);          // [m/s]
-  f("fclib", row.fclib);                              // what Siconos prints
-  f("cone_violation", row.cone_violation);            // [N s]
-  f("min_normal_velocity", row.min_normal_velocity);  // [m/s]
-  f("worst", row.worst);                              // contact of natural_map_max
+  f("natural_map_rms", row.judged.natural_map_rms);          // [m/s]
+  f("natural_map_max", row.judged.natural_map_max);          // [m/s]
+  f("fclib", row.judged.fclib);                              // what Siconos prints
+  f("cone_violation", row.judged.cone_violation);            // [N s]
+  f("min_normal_velocity", row.judged.min_normal_velocity);  // [m/s]
+  f("worst", row.worst);                                     // contact of natural_map_max
   f("velocity_distance",
     row.distance
         .velocity);  // of bodies, from a solution at 1e-9, over the velocity scale; nan: none

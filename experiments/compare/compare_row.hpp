@@ -7,6 +7,7 @@
 
 #include "experiments/compare/compare_case.hpp"
 #include "problems/algebra/answer_distance.hpp"
+#include "problems/algebra/contact_error.hpp"
 #include "solvers/seam/solver.hpp"
 
 namespace ballast {
@@ -57,11 +58,9 @@ struct CompareRow {
   // what the judge says, in another process
   /// Over the time limit it is `timeout`, be it solved or not.
   Verdict verdict = Verdict::crashed;
-  double error = 0.0;                                   ///< in the row's measure
-  double natural_map_rms = 0.0, natural_map_max = 0.0;  ///< [m/s]
-  double fclib = 0.0;
-  double cone_violation = 0.0, min_normal_velocity = 0.0;
-  std::string worst;  ///< contact of natural_map_max
+  double error = 0.0;   ///< in the row's measure
+  ContactError judged;  ///< of which files know some measures alone
+  std::string worst;    ///< contact of natural_map_max
   /// From a solution at 1e-9, velocities over the case's velocity scale; where none is known NaN,
   /// and statuses -1.
   AnswerDistance distance;

@@ -163,7 +163,6 @@ class Comparison {
 
   /// False: there is no file, or a damaged one, or another row's.
   static bool take_stored(const fs::path& file, CompareRow& row) {
-    if (!is_there(file)) return false;
     try {
       CompareRow stored = compare_row_of_json(read_whole_file(file), file.string(), row);
       if (stored.key != row.key) return false;

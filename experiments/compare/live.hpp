@@ -41,23 +41,21 @@ int reference_of(const std::vector<Trajectory>& trajectories);
 /// rms over grains of the distance from the reference at each frame that both have [m].
 std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference);
 
-struct LiveOptions {
+/// Of those of a comparison count the solvers, the tolerances (in g h; in m/s without gravity), the
+/// wall clock of one solve, and the folder, for start/ (a run), trajectories/<key>.bin, live.csv
+/// and live.html.
+struct LiveOptions : CompareOptions {
   std::string scene;                   ///< name or path
   std::vector<std::string> overrides;  ///< "dotted.key=value"
-  std::vector<ComparedSolver> solvers;
-  std::vector<double> tolerances{1e-2, 1e-3,
-                                 1e-4};  ///< natural map rms, in g h (in m/s without gravity)
   double start = 0.0;     ///< simulated time up to which the scene's own solver goes, once for all
                           ///< [s]; at least one step
   double duration = 0.1;  ///< simulated from there under each backend [s]
-  double max_seconds = 60.0;            ///< wall clock of one solve
   std::vector<int> iterations = {};     ///< after the tolerances: so many in every step, whatever
                                         ///< the error
   int threads = 1;                      ///< of the step and its solver: the same bits
   double trajectory_seconds = 600.0;    ///< wall clock of one trajectory
   std::filesystem::path packing_cache;  ///< empty: <folder>/packings
   Progress::Style style = StatusLine::style_of_stderr();  ///< of the start
-  std::filesystem::path folder;  ///< start/ (a run), trajectories/<key>.bin, live.csv, live.html
 };
 
 struct LiveComparison {

@@ -221,17 +221,6 @@ std::string live_csv(const LiveComparison& comparison) {
   return csv.take();
 }
 
-std::string steps_csv(const Trajectory& t) {
-  CsvWriter csv;
-  for (const StepColumn& column : step_columns()) csv.add(column.name);
-  csv.end_row();
-  for (const StepRecord& step : t.steps) {
-    for (const StepColumn& column : step_columns()) csv.add(step.*column.value, 17);
-    csv.end_row();
-  }
-  return csv.take();
-}
-
 std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
   using R = StepRecord;
   const Trajectory* reference = comparison.reference_trajectory();
@@ -285,7 +274,7 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
 
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison) {
   for (const Trajectory& t : comparison.trajectories)
-    write_whole_file(folder / steps_file(t), steps_csv(t));
+    write_steps_csv(folder / steps_file(t), t.steps);
   write_whole_file(folder / "live.csv", live_csv(comparison));
   page::Page page{.title = "One start, several solvers: " + comparison.scene.name};
   page.add(

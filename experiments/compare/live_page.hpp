@@ -24,9 +24,8 @@ struct LiveNumber {
 };
 std::span<const LiveNumber> live_numbers();
 
-/// One row for each trajectory; and every step's scalars of one, with all their digits.
+/// One row for each trajectory.
 std::string live_csv(const LiveComparison& comparison);
-std::string steps_csv(const Trajectory& trajectory);
 
 /// A line for every trajectory; last, error against cost with a line for every backend. Figures of
 /// the wall only with a driven wall, distances only with a reference. A figure of which nothing is

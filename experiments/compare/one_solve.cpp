@@ -94,7 +94,8 @@ Account solve_here(const MakeSolver& make, const LoadedCase& loaded, const Solve
 
 /// A row without an answer has no error, not a small one.
 void clear_measures(CompareRow& row) {
-  row.error = row.natural_map_rms = row.natural_map_max = row.fclib = std::nan("");
+  row.error = std::nan("");
+  row.judged = {.natural_map_rms = row.error, .natural_map_max = row.error, .fclib = row.error};
 }
 
 /// The judge's measures of an answer, and what they and the backend's word come to.
@@ -107,12 +108,7 @@ void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
   SolverRun run;
   run.solved = account.solved;
   run.error = contact_error(loaded.problem, impulses);
-  const ContactError& error = run.error;
-  row.natural_map_rms = error.natural_map_rms;
-  row.natural_map_max = error.natural_map_max;
-  row.fclib = error.fclib;
-  row.cone_violation = error.cone_violation;
-  row.min_normal_velocity = error.min_normal_velocity;
+  const ContactError& error = row.judged = run.error;
   row.worst = loaded.describe_contact(error.worst_contact);
   row.distance = answer_distance(loaded.problem, impulses, loaded.exact, scale);
   const bool by_fclib = row.measure == Measure::fclib;

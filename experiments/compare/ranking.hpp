@@ -2,6 +2,7 @@
 // The order of backends by time over many problems, and how sure it is over other problems of the
 // same kind (bootstrap).
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,5 +45,14 @@ inline constexpr int fewest_runs = 5, resamples = 200;
 /// equal ones share their mean rank. No members: NaN. The draws are seeded: the same on every
 /// machine.
 std::vector<Estimate> ranks_of(const TriedCases& tried, const std::vector<Eigen::Index>& members);
+
+/// The public table of a collection's comparison (ranking_page.cpp), into `folder`, whose
+/// manifest.json says who made the rows:
+///   index.html   the order of the backends, the held part apart; each family; how far the order
+///                holds; what each backend fails on; the families
+///   ranking.md   the same
+///   table.csv    a line for each part (open, held), family or size, tolerance, start and backend
+/// Throws Error.
+void write_ranking(const std::filesystem::path& folder, std::span<const CompareRow> rows);
 
 }  // namespace ballast

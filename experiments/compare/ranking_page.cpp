@@ -1,5 +1,3 @@
-#include "experiments/compare/ranking_page.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +6,7 @@
 
 #include "experiments/compare/collection.hpp"
 #include "experiments/compare/compare_page.hpp"
+#include "experiments/compare/ranking.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/page/markdown.hpp"
 #include "platform/atomic_file.hpp"

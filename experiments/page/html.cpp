@@ -123,12 +123,6 @@ Json figure_json(const Figure& figure) {
   return {{"name", figure.name}, {"title", figure.title}, {"panels", panels}};
 }
 
-/// JSON in which no "<" can end its element or begin a comment there.
-std::string for_script(std::string json) {
-  replace_all(json, "<", "\\u003c");
-  return json;
-}
-
 /// Bytes that the page's scripts unpack: unpacked() of answers/elements.js.
 std::string packed(const std::string& id, const std::string& bytes) {
   return "<script type=\"text/plain\" id=\"" + id + "\">" + base64(deflated(bytes, 9)) +
@@ -219,8 +213,9 @@ struct HtmlBlocks {
         "scripts.</p>\n";
     if (!replay.caption.empty())
       html += "<figcaption>" + html_of(replay.caption) + "</figcaption>\n";
-    html += "<script type=\"application/json\" id=\"replay-head\">" + for_script(replay.head) +
-            "</script>\n";
+    std::string head = replay.head;  // no "<" of it can end its element or begin a comment there
+    replace_all(head, "<", "\\u003c");
+    html += "<script type=\"application/json\" id=\"replay-head\">" + head + "</script>\n";
     for (const auto& [name, bytes] : replay.parts) html += packed("replay-" + name, bytes);
     std::string modules = answers_file("elements.js") + answers_file("choice.js");
     for (const char* name : replay_modules) modules += replay_file(name);

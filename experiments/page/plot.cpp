@@ -277,10 +277,9 @@ std::string gnuplot_script(const Figure& figure) {
   text += "set key above right horizontal samplen 1.6 spacing 1.0\nset multiplot\n";
   const std::vector<PanelPlace> places = panel_places(figure);
   char next = 'a';
-  for (size_t p = 0; p < figure.panels.size(); ++p) {
+  for (size_t p = 0; p < figure.panels.size(); ++p)
     text += panel_commands(figure.panels[p], places[p], "$p" + std::to_string(p) + "c",
                            figure.has_letters ? next++ : '\0');
-  }
   return text + "unset multiplot\n";
 }
 
@@ -323,15 +322,11 @@ void thin_out(std::vector<double>& x, std::vector<double>& y, size_t limit) {
   };
   for (size_t s = 0; s < stretches; ++s) {
     const size_t begin = s * count / stretches, end = (s + 1) * count / stretches;
-    size_t least = end, most = end;
+    size_t least = begin, most = begin;  // the first where nothing is finite
     for (size_t k = begin; k < end; ++k) {
       if (!std::isfinite(y[k])) continue;
-      if (least == end || y[k] < y[least]) least = k;
-      if (most == end || y[k] > y[most]) most = k;
-    }
-    if (least == end) {
-      keep(begin);
-      continue;
+      if (!std::isfinite(y[least]) || y[k] < y[least]) least = k;
+      if (!std::isfinite(y[most]) || y[k] > y[most]) most = k;
     }
     keep(std::min(least, most));
     if (least != most) keep(std::max(least, most));

@@ -1,7 +1,6 @@
-#include "experiments/paper/archive.hpp"
-
 #include "experiments/box/packing.hpp"
 #include "experiments/page/text.hpp"
+#include "experiments/paper/sections.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
 #include "platform/error.hpp"

@@ -1,7 +1,6 @@
-#include "experiments/paper/article.hpp"
-
 #include <ostream>
 
+#include "experiments/paper/sections.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
 

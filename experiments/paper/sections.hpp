@@ -4,12 +4,14 @@
 // words stand in texts/*.md under its name.
 
 #include <cmath>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "experiments/page/page.hpp"
 #include "experiments/paper/paper_data.hpp"
+#include "platform/error.hpp"
 
 namespace ballast {
 
@@ -194,5 +196,30 @@ void write_paper_report(PaperData& data, const std::vector<PaperSection>& sectio
 /// runs were made by, one sentence each.
 page::Page paper_page(const std::vector<PaperSection>& sections,
                       const std::vector<page::Text>& origin);
+
+// The article about the reproduction: prose (article.md, built into the program) in Pandoc's
+// Markdown. {{name.key}} in it stands for a number of the report, the value `key` of its figure,
+// claim or finding `name`; figures/NAME.svg stands for one of the report's figures.
+
+/// `prose` with every number put in. Throws Error naming the first one that there is not.
+std::string article_of(std::string_view prose, const page::Values& numbers);
+
+/// The article with the numbers of the whole report.
+std::string article_of(const std::vector<PaperSection>& sections);
+
+/// Writes article.md and the figures that it shows into `folder`, and by Pandoc and XeLaTeX
+/// article.html and article.pdf. Says on `notes` what is missing for them. Throws Error.
+ExitCode write_article(PaperData& data, const std::filesystem::path& folder, std::ostream& notes);
+
+/// The campaign as a dataset that can be cited: rows, plan, scenes, packings, a reader in Python.
+struct ArchiveOrder {
+  std::filesystem::path plan = {};  ///< the campaign's; empty: campaign.toml
+  std::filesystem::path packings;   ///< where packings are kept: checksums of those that are there
+  std::filesystem::path output;
+};
+
+/// Writes the folder `<output>/ballast-paper` and packs it as `<output>/ballast-paper.tar.gz`, the
+/// same bytes from the same rows. Returns the packed file. Throws Error.
+std::filesystem::path write_archive(PaperData& data, const ArchiveOrder& order);
 
 }  // namespace ballast

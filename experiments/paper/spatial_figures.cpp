@@ -19,20 +19,19 @@ constexpr double rms_arrow = 0.025;  // how long the rms velocity is drawn [m]
 /// Arrows as lines: shaft and two barbs, NaN between them. Lengths in the plot's units (axes of
 /// equal scale).
 void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
-  const auto add = [&](double a, double b) { curve.add(a, b); };
   const double length = std::hypot(dx, dz);
   if (!(length > 0.0)) return;
   // barbs at 2.6 rad (150 degrees) to the shaft
   const double barb = 0.3 * length, c = std::cos(2.6), s = std::sin(2.6);
-  add(x, z);
-  add(x + dx, z + dz);
+  curve.add(x, z);
+  curve.add(x + dx, z + dz);
   for (const double side : {-s, s}) {
-    add(not_known, not_known);
-    add(x + dx, z + dz);
-    add(x + dx + barb * (c * dx - side * dz) / length,
-        z + dz + barb * (side * dx + c * dz) / length);
+    curve.add(not_known, not_known);
+    curve.add(x + dx, z + dz);
+    curve.add(x + dx + barb * (c * dx - side * dz) / length,
+              z + dz + barb * (side * dx + c * dz) / length);
   }
-  add(not_known, not_known);
+  curve.add(not_known, not_known);
 }
 
 /// Arrows in the box around them, on axes of equal scale; one of length `rms` is drawn rms_arrow
@@ -123,9 +122,7 @@ Panel panel_of(const Chains& chains, double width, const std::string& title, boo
   for (const Chains::Segment& segment : chains.segments) {
     Curve& curve =
         curves[static_cast<size_t>(std::min(classes - 1.0, std::floor(segment.force / width)))];
-    for (const Vec3& end : {segment.from, segment.to}) {
-      curve.add(end.x(), end.z());
-    }
+    for (const Vec3& end : {segment.from, segment.to}) curve.add(end.x(), end.z());
     curve.add(not_known, not_known);
   }
   const Curve walls{.x = {chains.box.x_hi, chains.box.x_lo, chains.box.x_lo, chains.box.x_hi},

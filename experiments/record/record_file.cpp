@@ -207,8 +207,9 @@ MotionState unpack_pose_row(std::span<const double> row) {
   return state;
 }
 
-void add_rows(Hdf5Writer& file, RowReader& rows, const RowLayout& layout,
+void add_rows(Hdf5Writer& file, const std::filesystem::path& log, const RowLayout& layout,
               const std::function<void(std::span<const double> row)>& see) {
+  RowReader rows(log);
   const auto count = static_cast<size_t>(rows.safe_count());
   std::vector<Hdf5Id> datasets;
   file.add_group(layout.group);
@@ -221,7 +222,6 @@ void add_rows(Hdf5Writer& file, RowReader& rows, const RowLayout& layout,
   }
   const size_t length = layout.row_size(), most_rows = rows_together(layout);
   std::vector<double> gathered, values;
-  rows.rewind();
   for (size_t first = 0; first < count; first += gathered.size() / length) {
     // as many rows as may be gathered
     gathered.clear();
@@ -244,8 +244,9 @@ void add_rows(Hdf5Writer& file, RowReader& rows, const RowLayout& layout,
 }
 
 void write_record_file(const std::filesystem::path& path, const MechanicalSystem& system,
-                       RowReader& steps, RowReader& poses, RowReader* forces,
-                       const std::string& scene_text, const std::string& manifest_text) {
+                       const std::filesystem::path& steps, const std::filesystem::path& poses,
+                       const std::filesystem::path& forces, const std::string& scene_text,
+                       const std::string& manifest_text) {
   Hdf5Writer file(path, Hdf5Storage::compressed);
   file.add_attribute("/", "format", "ballast record 2");
   file.add_attribute("/", "bits_generation", std::to_string(bits_generation));
@@ -255,11 +256,11 @@ void write_record_file(const std::filesystem::path& path, const MechanicalSystem
   std::vector<double> frame_steps;
   add_rows(file, poses, poses_layout(system.bodies.size()),
            [&](std::span<const double> row) { frame_steps.push_back(row[0]); });
-  if (forces) {
+  if (!forces.empty()) {
     // Rows and frames come in the order of steps: a frame has the rows up to its own step.
     std::vector<std::int64_t> begin{0};
     std::int64_t count = 0;
-    add_rows(file, *forces, contacts_layout(), [&](std::span<const double> row) {
+    add_rows(file, forces, contacts_layout(), [&](std::span<const double> row) {
       while (begin.size() <= frame_steps.size() && row[0] > frame_steps[begin.size() - 1])
         begin.push_back(count);
       ++count;

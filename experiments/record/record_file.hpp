@@ -68,16 +68,17 @@ void pack_pose_row(const MotionState& state, std::vector<double>& row);
 MotionState unpack_pose_row(std::span<const double> row);
 
 /// The layout's group with a dataset (rows, shape) for each part, its unit and description as
-/// attributes. All safe rows are read, from the first; no more than a megabyte of them is in
-/// memory. `see` is called with each. Throws Error.
-void add_rows(Hdf5Writer& file, RowReader& rows, const RowLayout& layout,
+/// attributes. All safe rows of the log are read; no more than a megabyte of them is in memory.
+/// `see` is called with each. Throws Error.
+void add_rows(Hdf5Writer& file, const std::filesystem::path& log, const RowLayout& layout,
               const std::function<void(std::span<const double> row)>& see = {});
 
-/// The logs are read from their first row; all their rows must be safe. `forces`: null where none
-/// were asked for. Throws Error.
+/// From the logs, all of whose rows must be safe. `forces`: empty where none were asked for. Throws
+/// Error.
 void write_record_file(const std::filesystem::path& file, const MechanicalSystem& system,
-                       RowReader& steps, RowReader& poses, RowReader* forces,
-                       const std::string& scene_text, const std::string& manifest_text);
+                       const std::filesystem::path& steps, const std::filesystem::path& poses,
+                       const std::filesystem::path& forces, const std::string& scene_text,
+                       const std::string& manifest_text);
 
 std::vector<StepRecord> read_record_steps(const std::filesystem::path& file);
 std::vector<MotionState> read_record_poses(const std::filesystem::path& file);

@@ -1,7 +1,6 @@
 #include "experiments/record/recorder.hpp"
 
 #include "platform/atomic_file.hpp"
-#include "platform/csv.hpp"
 #include "platform/error.hpp"
 #include "platform/row_log.hpp"
 #include "platform/text.hpp"
@@ -124,23 +123,9 @@ void Recorder::flush() {
 
 void Recorder::finish(const std::string& scene_text, const std::string& manifest_text) {
   flush();
-  RowReader steps(steps_log(folder_)), poses(poses_log(folder_));
-  // steps.csv: 17 digits bring back the same bits
-  AtomicFile table(steps_table(folder_));
-  CsvWriter csv;
-  for (const StepColumn& column : step_columns()) csv.add(column.name);
-  csv.end_row();
-  table.write(csv.take());
-  for (auto row = steps.next(); !row.empty(); row = steps.next()) {
-    for (const double value : row) csv.add(value, 17);
-    csv.end_row();
-    table.write(csv.take());
-  }
-  table.commit();
-  std::optional<RowReader> forces;
-  if (forces_) forces.emplace(forces_log(folder_));
-  write_record_file(record_file(folder_), system_, steps, poses, forces ? &*forces : nullptr,
-                    scene_text, manifest_text);
+  write_steps_csv(steps_table(folder_), read_steps(folder_));
+  write_record_file(record_file(folder_), system_, steps_log(folder_), poses_log(folder_),
+                    forces_ ? forces_log(folder_) : fs::path(), scene_text, manifest_text);
 }
 
 std::vector<StepRecord> read_steps(const fs::path& folder) {

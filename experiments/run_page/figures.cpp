@@ -34,23 +34,6 @@ Curve column_line(const RunData& data, double StepRecord::*value, double factor,
                  record_column(data.steps, value, factor), title, ink, width);
 }
 
-/// f_g [unit] against x [mm] over the periods of the loop, of the samples that `is_drawn` takes;
-/// the others are NaN, so that the line breaks between them.
-template <class IsDrawn>
-Curve loop_curve(const RunData& data, const WallCycles& cycles, const std::vector<double>& force,
-                 double factor, const IsDrawn& is_drawn) {
-  Curve curve;
-  const size_t first = cycles.periods[cycles.loop_first].first,
-               last = cycles.periods[cycles.loop_last - 1].last;
-  for (size_t k = first; k < last; ++k) {
-    // the first sample after a phase is taken along: no gaps where the colour changes
-    const bool is_in = is_drawn(k) || (k > first && is_drawn(k - 1));
-    curve.add(is_in ? 1e3 * data.steps[k].wall_x : not_known,
-              is_in ? factor * force[k] : not_known);
-  }
-  return curve;
-}
-
 /// The fits, drawn along every stroke of the loop from its own jamming position.
 Curve fit_curve(const RunSummary& summary, double factor) {
   Curve curve{.title = "fits", .ink = Ink::black, .width = 1.3, .dashed = true};
@@ -267,14 +250,19 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   Panel panel{.x_label = page::marked("*x*  (mm)"),
               .y_label = page::marked("*f*~g~  (") + unit.name + ")",
               .y_min = 0.0};
-  // each step grey below, the smoothed force of each phase in its colour above
+  // Each step grey below, the smoothed force of each phase in its colour above: over the periods of
+  // the loop the samples that `is_drawn` takes; the line breaks between them.
+  const size_t first = cycles.periods[cycles.loop_first].first,
+               last = cycles.periods[cycles.loop_last - 1].last;
   const auto add = [&](const std::vector<double>& force, const char* title, Ink ink, double width,
                        const auto& is_drawn) {
-    Curve curve = loop_curve(data, cycles, force, unit.factor, is_drawn);
-    curve.title = title;
-    curve.ink = ink;
-    curve.width = width;
-    panel.curves.push_back(curve);
+    Curve& curve = panel.curves.emplace_back(Curve{.title = title, .ink = ink, .width = width});
+    for (size_t k = first; k < last; ++k) {
+      // the first sample after a phase is taken along: no gaps where the colour changes
+      const bool is_in = is_drawn(k) || (k > first && is_drawn(k - 1));
+      curve.add(is_in ? 1e3 * data.steps[k].wall_x : not_known,
+                is_in ? unit.factor * force[k] : not_known);
+    }
   };
   add(record_column(data.steps, &StepRecord::wall_force), "each step", Ink::light, 0.7,
       [](size_t) { return true; });

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <string_view>
 
+#include "platform/atomic_file.hpp"
+#include "platform/csv.hpp"
+
 namespace ballast {
 namespace {
 
@@ -92,6 +95,20 @@ double step_seconds(const StepRecord& step) {
   double seconds = 0.0;
   for (const StepColumn& phase : step_phases()) seconds += step.*phase.value;
   return seconds;
+}
+
+void write_steps_csv(const std::filesystem::path& file, std::span<const StepRecord> steps) {
+  AtomicFile table(file);
+  CsvWriter csv;
+  for (const StepColumn& column : columns) csv.add(column.name);
+  csv.end_row();
+  for (const StepRecord& step : steps) {
+    table.write(csv.take());
+    for (const StepColumn& column : columns) csv.add(step.*column.value, 17);
+    csv.end_row();
+  }
+  table.write(csv.take());
+  table.commit();
 }
 
 std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value,

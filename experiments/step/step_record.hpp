@@ -5,6 +5,7 @@
 // clock of a phase of the step. A new column is a member here, a row in the table, and the place
 // where it is measured.
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +52,10 @@ std::span<const StepColumn> step_phases();
 
 /// Wall clock of a step: all its phases [s].
 double step_seconds(const StepRecord& step);
+
+/// A line of names and one of each step, in 17 digits, which bring back the same bits. Written
+/// beside and renamed. Throws Error.
+void write_steps_csv(const std::filesystem::path& file, std::span<const StepRecord> steps);
 
 /// One entry per step, times `factor` (from SI to what a figure shows).
 std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value,

@@ -117,7 +117,11 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   for (size_t k = 1; k < s.parts.size(); ++k) count += s.parts[k].found.size();
   if (count > contacts.capacity()) contacts.reserve(count + count / 8);  // room for later steps
   for (size_t k = 0; k < s.parts.size(); ++k) {
-    s.counters += s.parts[k].counters();
+    for (const auto count :
+         {&DetectionCounters::candidate_pairs, &DetectionCounters::cached_separations,
+          &DetectionCounters::proved_axes, &DetectionCounters::full_tests,
+          &DetectionCounters::manifolds})
+      s.counters.*count += s.parts[k].counters().*count;
     if (k > 0) contacts.insert(contacts.end(), s.parts[k].found.begin(), s.parts[k].found.end());
   }
   if (s.elements) s.elements->name_bodies(contacts);
@@ -186,11 +190,6 @@ size_t end_of_pair(std::span<const ContactPoint> contacts, size_t begin) {
   return end;
 }
 
-/// True if a contact of the pair, sorted by feature, has this key.
-bool has_feature(std::span<const ContactPoint> pair, std::uint64_t feature) {
-  return std::ranges::any_of(pair, [&](const ContactPoint& c) { return c.feature == feature; });
-}
-
 /// Index of the nearest point whose key no old point has, or of the nearest of all if every key is
 /// known.
 size_t nearest(std::span<const ContactPoint> candidates, std::span<const ContactPoint> old_pair,
@@ -203,7 +202,8 @@ size_t nearest(std::span<const ContactPoint> candidates, std::span<const Contact
       distance_any = d;
       best_any = i;
     }
-    if (d < distance && !has_feature(old_pair, candidates[i].feature)) {
+    if (d < distance && std::ranges::find(old_pair, candidates[i].feature,
+                                          &ContactPoint::feature) == old_pair.end()) {
       distance = d;
       best = i;
     }

@@ -15,7 +15,9 @@ double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const Clipped
 std::uint64_t crossing_key(int reference, std::span<const CollisionShape::Corner> corners, int k,
                            int edge) {
   const int own_edge = corners[k].edge;
-  if (edge >= 0) return edges_key(reference, own_edge, edge);
+  if (edge >= 0)
+    return reference == 0 ? feature_key(PointKind::edges, own_edge, edge)
+                          : feature_key(PointKind::edges, edge, own_edge);
   const int other_side = ~edge, count = static_cast<int>(corners.size());
   int corner = -1;
   if ((other_side + 1) % count == k) corner = corners[k].vertex;

@@ -53,16 +53,6 @@ struct DetectionCounters {
   long full_tests = 0;            ///< pairs that needed the whole separating-axis search
   long manifolds = 0;             ///< pairs with at least one contact point
   long broad_phase_rebuilds = 0;  ///< since construction
-
-  DetectionCounters& operator+=(const DetectionCounters& other) {
-    candidate_pairs += other.candidate_pairs;
-    cached_separations += other.cached_separations;
-    proved_axes += other.proved_axes;
-    full_tests += other.full_tests;
-    manifolds += other.manifolds;
-    broad_phase_rebuilds += other.broad_phase_rebuilds;
-    return *this;
-  }
 };
 
 /// One contact point between body a and body b. A plane is always a; of two polyhedra a has the
@@ -98,12 +88,6 @@ inline std::uint64_t feature_key(PointKind kind, int a, int b) {
 inline std::uint64_t vertex_key(int body, int index) {
   return body == 0 ? feature_key(PointKind::vertex_of_a, index, 0)
                    : feature_key(PointKind::vertex_of_b, 0, index);
-}
-
-/// Edge `own` of body 0 (a) or 1 (b) and edge `other` of the other body.
-inline std::uint64_t edges_key(int body, int own, int other) {
-  return body == 0 ? feature_key(PointKind::edges, own, other)
-                   : feature_key(PointKind::edges, other, own);
 }
 
 /// Of bodies of several parts the upper 15 of a body's 31 bits name the part.

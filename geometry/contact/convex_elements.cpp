@@ -6,21 +6,6 @@
 #include <tuple>
 
 namespace ballast {
-namespace {
-
-void check_period(std::span<const ContactShape> bodies, const Period& period) {
-  for (size_t b = 0; b < bodies.size(); ++b) {
-    const std::string name = "body " + std::to_string(b);
-    if (!bodies[b].polyhedron) {
-      if (!period.keeps_plane(bodies[b].plane.normal))
-        throw std::invalid_argument(name + ": a plane that cuts the period");
-    } else if (!period.has_room_for(bodies[b].polyhedron->circumradius())) {
-      throw std::invalid_argument(name + ": not smaller than half a period");
-    }
-  }
-}
-
-}  // namespace
 
 bool ConvexElements::are_needed(std::span<const ContactShape> bodies, const Period& period) {
   return period.repeats() ||
@@ -29,7 +14,6 @@ bool ConvexElements::are_needed(std::span<const ContactShape> bodies, const Peri
 
 ConvexElements::ConvexElements(std::span<const ContactShape> bodies, const Period& period)
     : period_(period) {
-  if (period.repeats()) check_period(bodies, period);
   for (const bool is_image : {false, true}) {
     if (is_image && !period.repeats()) break;
     for (size_t b = 0; b < bodies.size(); ++b) {

@@ -16,8 +16,8 @@ namespace ballast {
 
 class ConvexElements {
  public:
-  /// Throws std::invalid_argument: a plane that does not contain the period, a body that is not
-  /// smaller than half of it, too many parts or vertices for the keys of contacts.
+  /// Planes contain the period, bodies are smaller than half of it: read_bodies() asks for both.
+  /// Throws std::invalid_argument: too many parts or edges of one for the keys of contacts.
   ConvexElements(std::span<const ContactShape> bodies, const Period& period);
 
   /// Whether bodies are anything else than elements.

@@ -33,6 +33,8 @@ struct Tolerance {
   /// Corners of faces that rise less than this over the chord of their neighbours are dropped: they
   /// would make needles, whose planes mean nothing.
   double corner;
+  /// Rounds after which too many corners are flat: a curve of many points has hundreds.
+  int most_rounds = 1 << 20;
 };
 /// A tenth of Polyhedron's tolerance, as a merged facet is flat only to several of it; corners
 /// above that tolerance of 1e-9 of a size that is at most 2 sqrt(3) half-extents.
@@ -246,7 +248,9 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
 /// flat and starts again without them: one round for almost all inputs.
 Loops hull_loops(const std::vector<Vec3>& points, const Tolerance& tolerance) {
   std::vector<int> kept = distinct(points);
-  while (kept.size() >= 4) {
+  for (int round = 0; kept.size() >= 4; ++round) {
+    if (round == tolerance.most_rounds)
+      throw InvalidPolyhedron("faces with many nearly straight corners");
     // Only the points that are left are handed over, under new numbers; what comes back is put into
     // the caller's numbers before it is judged.
     std::vector<double> coordinates;
@@ -346,7 +350,7 @@ Polyhedron rounded_hull(std::span<const Vec3> points, double rounding) {
   const std::vector<Vec3> scaled = normalised(points);
   const double half = half_extent(points);
   try {
-    const Loops loops = hull_loops(scaled, {rounding, 40.0 * rounding});
+    const Loops loops = hull_loops(scaled, {rounding, 40.0 * rounding, /*most_rounds=*/6});
     std::vector<Vec3> moved = scaled;
     if (flatten(loops, moved)) {
       std::vector<Vec3> corners;

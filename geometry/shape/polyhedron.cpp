@@ -58,14 +58,6 @@ void check_indices(int vertex_count, const std::vector<std::vector<int>>& faces)
   }
 }
 
-/// No two vertices within `reach` [m] of each other.
-void check_distinct(std::span<const Vec3> vertices, double reach) {
-  const std::vector<int> first = first_close(vertices, reach);
-  for (size_t v = 0; v < first.size(); ++v)
-    if (first[v] != static_cast<int>(v))
-      invalid(At{.vertex = static_cast<int>(v)}, "vertices ", first[v], " and ", v, " coincide");
-}
-
 /// A vertex may lie `tolerance` times the size of the whole mesh off the plane normal.x = offset.
 /// Corners that all turn left by less than pi, once around, make the loop a simple convex polygon.
 void check_loop(std::span<const Vec3> vertices, int face, std::span<const int> loop,
@@ -107,7 +99,9 @@ Polyhedron::Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector
   // Each check may rely on those before it: valid indices, distinct vertices, a closed surface in
   // one piece, flat faces, and only then that the whole is convex.
   check_indices(vertex_count(), faces);
-  check_distinct(vertices_, tolerance * size_);
+  const std::vector<int> first = first_close(vertices_, tolerance * size_);
+  for (int v = 0; v < vertex_count(); ++v)
+    if (first[v] != v) invalid(At{.vertex = v}, "vertices ", first[v], " and ", v, " coincide");
   build_faces(faces);
   join_faces();
   check_one_piece();

@@ -93,16 +93,10 @@ void FrictionProblem::add_contact(int a, int b, double mu, const Eigen::MatrixXd
   friction.push_back(mu);
 }
 
-void DynamicsForm::clear_contacts() {
-  body_a.clear();
-  body_b.clear();
-  h_begin.assign(1, 0);
-}
-
 void FrictionProblem::clear_contacts() {
-  row_begin.assign(1, 0);
+  for (std::vector<int>* begin : {&row_begin, &dynamics.h_begin}) begin->assign(1, 0);
+  for (std::vector<int>* bodies : {&dynamics.body_a, &dynamics.body_b}) bodies->clear();
   friction.clear();
-  dynamics.clear_contacts();
 }
 
 void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
@@ -246,11 +240,10 @@ Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c) {
 // name it.
 namespace {
 
-/// Asymmetry |x_ij - x_ji| of a block, relative to its diagonal. Masses: rounding of rotated
-/// inertias. Stored Delassus operators: implicit gyroscopic terms make some of them truly
-/// unsymmetric (FCLIB's RockPile by 2 %, others by 16 %), and the law is asked of W as it is; only
-/// a block whose antisymmetric part outweighs its diagonal is taken for something else.
-constexpr double mass_asymmetry = 1e-10;
+/// Asymmetry |x_ij - x_ji| of a block, relative to its diagonal. Stored Delassus operators:
+/// implicit gyroscopic terms make some of them truly unsymmetric (FCLIB's RockPile by 2 %, others
+/// by 16 %), and the law is asked of W as it is; only a block whose antisymmetric part outweighs
+/// its diagonal is taken for something else.
 constexpr double delassus_asymmetry = 2.0;
 /// Below zero by this much, relative, a minor of a stored block is taken for rounding: some files
 /// hold six digits.

@@ -29,6 +29,9 @@ inline constexpr double largest_friction = 1e4;
 /// Greatest size of any entry, and least of a mass and of W_cc where it is not zero. In between no
 /// square, product or determinant that a solver makes overflows.
 inline constexpr double largest_entry = 1e30, smallest_scale = 1e-30;
+/// By how much the two halves of a body's mass block may differ, as a part of its diagonal: the
+/// rounding of rotated inertias.
+inline constexpr double mass_asymmetry = 1e-10;
 
 /// A problem that no solver may see; what() names the array, the index and the value.
 class InvalidProblem : public std::runtime_error {
@@ -65,10 +68,6 @@ struct DynamicsForm {
   /// Appends a body with this mass block, 1 x 1 to 6 x 6; returns its number. Whoever builds a
   /// problem sizes v_free himself.
   int add_body(const Eigen::MatrixXd& block);
-
-  /// No contacts; bodies stay. v_free, bias and h keep their sizes: whoever refills the problem
-  /// resizes them, and nothing is allocated while the sizes stay.
-  void clear_contacts();
 };
 
 /// The problem as files often give it: W (rows x rows) and q.
@@ -96,7 +95,9 @@ struct FrictionProblem {
   int row_count() const { return row_begin.back(); }
   int contact_rows(int c) const { return row_begin[c + 1] - row_begin[c]; }
 
-  void clear_contacts();  ///< storage is kept (see DynamicsForm::clear_contacts)
+  /// No contacts; bodies stay. v_free, bias and h keep their sizes: whoever refills the problem
+  /// resizes them, and nothing is allocated while the sizes stay.
+  void clear_contacts();
 
   /// Appends a contact of b against a to the dynamics form: rows x unknowns of each body, `h_a`
   /// empty where a is -1. The rows are those of h_b. Whoever builds a problem sizes bias himself.

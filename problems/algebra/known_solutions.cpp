@@ -139,9 +139,8 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
 void repeat_contacts(FrictionProblem& problem, int copies) {
   const FrictionProblem once = problem;
   const DynamicsForm& from = once.dynamics;
-  problem.row_begin = problem.dynamics.h_begin = {0};
-  for (auto* list : {&problem.friction, &problem.dynamics.h}) list->clear();
-  for (auto* list : {&problem.dynamics.body_a, &problem.dynamics.body_b}) list->clear();
+  problem.clear_contacts();
+  problem.dynamics.h.clear();
   problem.dynamics.bias.resize(static_cast<Eigen::Index>(once.row_count()) * copies);
   for (int c = 0; c < once.contact_count(); ++c)
     for (int copy = 0; copy < copies; ++copy) {

@@ -49,13 +49,6 @@ class Pile {
   }
 
  private:
-  /// As many as leave the redundancy that is asked for: with B bodies and C contacts W has 3 C rows
-  /// and the rank 6 B at most.
-  int body_count() const {
-    const double bodies = (1.0 - settings_.redundancy) * 0.5 * settings_.contacts;
-    return std::max(1, static_cast<int>(std::lround(bodies)));
-  }
-
   /// Lattice points along a side of the ground.
   int side_of(int bodies) const {
     // A lattice of width w and slenderness s has w x w x (s w) bodies.
@@ -65,7 +58,10 @@ class Pile {
 
   /// Near the points of a cubic lattice of spacing 1, in layers from below.
   void place_bodies() {
-    const int bodies = body_count();
+    // As many as leave the redundancy that is asked for: with B bodies and C contacts W has 3 C
+    // rows and the rank 6 B at most.
+    const double wanted = (1.0 - settings_.redundancy) * 0.5 * settings_.contacts;
+    const int bodies = std::max(1, static_cast<int>(std::lround(wanted)));
     const int side = side_of(bodies);
     for (int b = 0; b < bodies; ++b) {
       const int row = b / side % side, layer = b / (side * side);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "platform/text.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
 #include "problems/algebra/islands.hpp"
@@ -131,19 +131,14 @@ NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& 
 
 std::string NoSolution::words() const {
   if (!proved()) return "";
-  std::ostringstream text;
-  text.precision(3);
-  text << "there is no solution: ";
-  if (contacts == 1)
-    text << "contact " << first_contact << " sinks in at " << approach << " m/s";
-  else
-    text << contacts << " contacts (one is " << first_contact << ") sink in at " << approach
-         << " m/s in the mean";
-  if (std::isfinite(least_impulse))
-    text << " whatever impulses below " << least_impulse << " N s do";
-  else
-    text << " whatever the impulses";
-  return text.str();
+  const std::string who = contacts == 1
+                              ? printed("contact %d sinks in at %.3g m/s", first_contact, approach)
+                              : printed("%d contacts (one is %d) sink in at %.3g m/s in the mean",
+                                        contacts, first_contact, approach);
+  return "there is no solution: " + who +
+         (std::isfinite(least_impulse)
+              ? printed(" whatever impulses below %.3g N s do", least_impulse)
+              : " whatever the impulses");
 }
 
 }  // namespace ballast

@@ -40,6 +40,29 @@ struct CapturedProblem {
   double velocity_scale() const { return g > 0.0 ? g * h : 1.0; }
 };
 
+/// What the run knew of the step, member by member: each(name, member), and how many entries a list
+/// must have.
+template <typename Captured, typename Each>
+void each_member(Captured& captured, const Each& each) {
+  each("h", captured.h);
+  each("g", captured.g);
+  each("time", captured.time);
+  each("wall_x", captured.wall_x);
+  each("wall_v", captured.wall_v);
+  each("load", captured.load);
+  each("step", captured.step);
+  each("phase", captured.phase);
+  const auto contacts = static_cast<std::size_t>(captured.problem.contact_count());
+  each("start", captured.start, static_cast<std::size_t>(captured.problem.row_count()));
+  each("solution", captured.solution, static_cast<std::size_t>(captured.problem.row_count()));
+  each("gap", captured.gap, contacts);
+  each("frame", captured.frame, 9 * contacts);
+  each("position", captured.position, 3 * contacts);
+  each("key", captured.key, contacts);
+  each("id_a", captured.id_a, contacts);
+  each("id_b", captured.id_b, contacts);
+}
+
 /// Whether the file is an HDF5 file with the side group. False for everything else, files that are
 /// missing included.
 bool is_captured(const std::filesystem::path& file);

@@ -9,16 +9,6 @@
 namespace ballast {
 namespace {
 
-Freedom freedom_of(const BodySpec& spec) {
-  Freedom freedom;
-  // The free directions in the order x, y, z: the first columns of `axes`.
-  freedom.translations = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    if (spec.free[axis]) freedom.axes.col(freedom.translations++) = Vec3::Unit(axis);
-  freedom.rotation = spec.free_rotation;
-  return freedom;
-}
-
 /// Parts that overlap count twice [m^3].
 double volume_of(const BodySpec& spec) {
   if (spec.parts.empty()) return mass_properties(*spec.shape).volume;
@@ -72,7 +62,11 @@ void add_body(MechanicalSystem& system, MotionState& state, const BodySpec& spec
   body.mass = spec.mass;
   body.inertia = spec.inertia;
   body.volume = volume;
-  body.freedom = freedom_of(spec);
+  // The free directions in the order x, y, z: the first columns of `axes`.
+  body.freedom.translations = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (spec.free[axis]) body.freedom.axes.col(body.freedom.translations++) = Vec3::Unit(axis);
+  body.freedom.rotation = spec.free_rotation;
   body.force = spec.force;
   body.shape.polyhedron = spec.shape.get();
   body.shape.fixed = body.freedom.count() == 0;

@@ -139,8 +139,8 @@ struct DriveSpec {
   std::uint64_t start_noise_seed = 1;
 };
 
-/// The paper's box is the default: it is known how it moves with these numbers. Other scenes have
-/// those of SolverSpec::for_any_scene().
+/// The paper's box is the default: it is known how it moves with these numbers. Other scenes begin
+/// with others: scene_file.cpp.
 struct SolverSpec {
   std::string name = "nesterov_pgs";
   double tolerance = 1e-3;  ///< natural map rms, in g h (in m/s where there is no gravity)
@@ -150,15 +150,6 @@ struct SolverSpec {
   double change_tolerance = 0.0;  ///< above 0: LMGC90's rule in place of the tolerance, looked at
   int change_every = 500;         ///< every so many iterations (solvers/parts/local_change.hpp)
   int threads = 1;  ///< set by the program, never by the file: results do not depend on it
-
-  /// What holds whatever the masses and shapes are: where sweeps stand still, as with heavy bodies
-  /// on light ones, it turns to Newton.
-  static SolverSpec for_any_scene() {
-    SolverSpec spec;
-    spec.name = "auto";
-    spec.max_iterations = 100000;  // sweeps are cheap beside a Newton step: auto knows when
-    return spec;
-  }
 };
 
 /// Overlap correction by displacements only: grains are moved apart without changing velocities;

@@ -269,7 +269,9 @@ Scene read(TomlTable& root, const fs::path& file) {
   } else {
     read_body_scene(root, scene, file);
     read_material_pairs(pairs, scene);
-    scene.solver = SolverSpec::for_any_scene();
+    // What holds whatever the masses and shapes are: where sweeps stand still, as with heavy bodies
+    // on light ones, auto turns to Newton. Sweeps are cheap beside a Newton step: it knows when.
+    scene.solver = {.name = "auto", .max_iterations = 100'000};
   }
   read_solver(root.section("solver"), scene.solver);
   TomlTable correction = root.section("correction");

@@ -39,6 +39,10 @@ class Captured:
     @classmethod
     def read(cls, file: Path) -> "Captured":
         parts = _ballast.captured(os.fspath(file))
+        for name in ("start", "solution", "position"):
+            parts[name] = parts[name].reshape(-1, 3)
+        parts["frame"] = parts["frame"].reshape(-1, 3, 3)
+        parts["bodies"] = np.column_stack([parts.pop("id_a"), parts.pop("id_b")])
         return cls(problem=Problem(parts.pop("problem")), **parts)
 
 

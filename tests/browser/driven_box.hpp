@@ -42,10 +42,22 @@ inline const DrivenBox& driven_box() {
   return box;
 }
 
+/// JavaScript: the picture of a stage as bytes, red green blue alpha, the lowest row first.
+inline std::string pixels_of(const std::string& stage = "ballastReplay.stages[0]") {
+  return R"(((stage) => {
+    const { gl, canvas } = stage, bytes = new Uint8Array(4 * canvas.width * canvas.height);
+    ballastReplay.moving = false;
+    ballastReplay.draw();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    return { width: canvas.width, height: canvas.height, bytes };
+  })()" + stage +
+         ")";
+}
+
 /// A number that is another for every other picture.
 inline Browser::Json picture(Browser& browser) {
-  return browser.js(
-      "ballastReplay.pixels().bytes.reduce((sum, v, k) => (sum + v * (k % 9973)) % 1e9, 0)");
+  return browser.js(pixels_of() + ".bytes.reduce((sum, v, k) => (sum + v * (k % 9973)) % 1e9, 0)");
 }
 
 inline std::string clicked(const std::string& id) {

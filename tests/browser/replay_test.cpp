@@ -22,8 +22,7 @@ using Catch::Matchers::Contains;
 /// The picture's pixels that `test` (an expression of r, g, b: 0 to 255) holds of: how many, and
 /// between which columns.
 Json pixels(Browser& browser, const std::string& test) {
-  return browser.js(R"((() => {
-    const { width, height, bytes } = ballastReplay.pixels();
+  return browser.js("(() => { const { width, height, bytes } = " + pixels_of() + R"(;
     let count = 0, first = width, last = -1;
     for (let k = 0; k < bytes.length; k += 4) {
       const r = bytes[k], g = bytes[k + 1], b = bytes[k + 2];
@@ -197,9 +196,8 @@ TEST_CASE("two backends' errors stand side by side, and the worst contact is fou
   const int worst = browser.js("ballastReplay.errors.worst");
   const std::vector<double>& last = view.errors[0].error[2];
   CHECK(last[static_cast<size_t>(worst)] > 0.9 * *std::max_element(last.begin(), last.end()));
-  const Json sharp = browser.js(
-      "ballastReplay.stages.map((s) => { const { bytes } = "
-      "ballastReplay.pixels(s); return new Set(bytes).size; })");
+  const Json sharp =
+      browser.js("ballastReplay.stages.map((s) => new Set(" + pixels_of("s") + ".bytes).size)");
   CHECK((sharp[0] > 20 && sharp[1] > 20));
 }
 
@@ -357,7 +355,7 @@ TEST_CASE("what is chosen stands in the address, and shows the same again") {
       "ballastReplay.camera.zoom(0.8); ballastReplay.touched()");
   // the camera stands in the address with five digits: not to the pixel the same
   const auto looks = [&] {
-    return browser.js("Array.from(ballastReplay.pixels().bytes.filter((v, k) => k % 397 === 0))");
+    return browser.js("Array.from(" + pixels_of() + ".bytes.filter((v, k) => k % 397 === 0))");
   };
   CHECK(picture(browser) != first);
   const Browser::Json seen = looks();

@@ -58,7 +58,7 @@ void flip(const fs::path& file, size_t byte) {
 
 }  // namespace
 
-TEST_CASE("rows come back with their header, as often as wanted") {
+TEST_CASE("rows come back with their header") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "log";
   write_rows(file, 50, 7);
@@ -71,8 +71,6 @@ TEST_CASE("rows come back with their header, as often as wanted") {
   CHECK(fs::file_size(file) == reader.header_bytes() + 57 * row_bytes);
   CHECK(count_rows(reader) == 57);
   CHECK(reader.next().empty());
-  reader.rewind();
-  CHECK(count_rows(reader) == 57);
 }
 
 TEST_CASE("a log goes on after the rows that are kept") {

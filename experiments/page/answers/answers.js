@@ -1,7 +1,7 @@
 // Begins: every table that stands in the page sorts, every picture whose curves are in the page
 // becomes a chart.
 
-const page_data = JSON.parse(await unpacked_text(document.getElementById("page-data")));
+const page_data = JSON.parse(await (await unpacked(document.getElementById("page-data"))).text());
 document.documentElement.classList.add("answers");
 // tables whose first column has no head are in groups
 for (const table of document.querySelectorAll("main table:not(.facts)"))

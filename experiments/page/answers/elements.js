@@ -46,22 +46,15 @@ async function copy(text, pressed) {
   setTimeout(() => { pressed.textContent = words; }, 1500);
 }
 
-/// The bytes that an element holds in base64 and deflated, chunk by chunk (a Response takes three
-/// times as long). The element is empty then.
-async function* unpacked(holder) {
+/// The bytes that an element holds in base64 and deflated, taken chunk by chunk (a Response takes
+/// three times as long). The element is empty then.
+async function unpacked(holder) {
   if (!window.DecompressionStream) throw new Error("this browser is too old to unpack the data");
-  const letters = atob(holder.textContent), packed = new Uint8Array(letters.length);
+  const letters = atob(holder.textContent), packed = new Uint8Array(letters.length), chunks = [];
   for (let k = 0; k < packed.length; ++k) packed[k] = letters.charCodeAt(k);
   holder.textContent = "";
   const inflated = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   const reader = inflated.getReader();
-  for (let got = await reader.read(); !got.done; got = await reader.read()) yield got.value;
-}
-
-/// What an element holds so, as a text.
-async function unpacked_text(holder) {
-  const decoder = new TextDecoder();
-  let text = "";
-  for await (const chunk of unpacked(holder)) text += decoder.decode(chunk, { stream: true });
-  return text + decoder.decode();
+  for (let got = await reader.read(); !got.done; got = await reader.read()) chunks.push(got.value);
+  return new Blob(chunks);
 }

@@ -4,9 +4,8 @@
 const part = (id) => document.getElementById("replay-" + id);
 
 async function partBytes(name) {
-  const holder = part(name), chunks = [];
-  if (holder) for await (const chunk of unpacked(holder)) chunks.push(chunk);
-  return new Uint8Array(await new Blob(chunks).arrayBuffer());
+  const holder = part(name), bytes = holder ? await unpacked(holder) : new Blob();
+  return new Uint8Array(await bytes.arrayBuffer());
 }
 
 // Numbers of a typed array's kind: all their first bytes, then all second ones, ...
@@ -45,12 +44,6 @@ function placeIn(times, time) {
   const span = high > low ? times[high] - times[low] : 0;
   return [low, span ? clamp((time - times[low]) / span, 0, 1) : 0];
 }
-
-// -1 .. 1 from 8 bits with a root's steps.
-const fromSignedRoot = (byte) => {
-  const root = (byte - 128) / 127;
-  return root * Math.abs(root);
-};
 
 class Data {
   static async load() {
@@ -162,8 +155,10 @@ class Data {
     const at = 3 * (frame * this.grains + g) + k;
     return this.head.low[k] + this.positions[at] / 65535 * this.head.span[k];
   }
+  // From 8 bits with a root's steps.
   velocityOf(frame, g, k) {
-    return fromSignedRoot(this.velocities[3 * (frame * this.grains + g) + k]) * this.head.fastest;
+    const root = (this.velocities[3 * (frame * this.grains + g) + k] - 128) / 127;
+    return root * Math.abs(root) * this.head.fastest;
   }
   rotationOf(frame, g, out = [0, 0, 0, 0]) {
     for (let k = 0; k < 4; ++k)
@@ -209,17 +204,15 @@ class Data {
     const wall = this.head.walls[w], frames = this.times.length;
     const stored = (frame, k) => this.wallStates[6 * (w * frames + frame) + k];
     if (wall.driven && this.series.x) {
-      const outward = (this.seriesAt("x", time) - this.seriesStart()) * 1e-3;
+      // x at the first frame: 0, unless the stored frames begin later
+      const first = this.begin < this.seriesTime[0] ? 0 : this.seriesAt("x", this.begin);
+      const outward = (this.seriesAt("x", time) - first) * 1e-3;
       return [0, 1, 2].map((k) => stored(0, k) - wall.normal[k] * outward);
     }
     const { frame, next, span, u } = this.frameAt(time);
     return [0, 1, 2].map((k) => stored(frame, k) + (stored(next, k) - stored(frame, k)) * u +
       u * (1 - u) * span * ((1 - u) * (stored(frame, 3 + k)) - u * stored(next, 3 + k) +
         (2 * u - 1) * (span ? (stored(next, k) - stored(frame, k)) / span : 0)));
-  }
-  // x at the first frame: 0, unless the stored frames begin later.
-  seriesStart() {
-    return this.begin < this.seriesTime[0] ? 0 : this.seriesAt("x", this.begin);
   }
 
   // The box that all is in: walls where there are some, else the bodies and some room.

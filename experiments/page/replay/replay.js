@@ -172,16 +172,11 @@ class Replay {
     return look;
   }
 
-  // Balls in place of grains: in the first picture of many corners, and while something moves where
-  // a whole picture takes long.
-  chooseDraft() {
-    const isFirst = this.isDraft === undefined;
-    this.isDraft = this.wholeTook ? this.moving && this.wholeTook > 300 :
-      isFirst && this.mesh.corners > 1e6;
-  }
-
   draw() {
-    this.chooseDraft();
+    // balls in place of grains: in the first picture of many corners, and while something moves
+    // where a whole picture takes long
+    this.isDraft = this.wholeTook ? this.moving && this.wholeTook > 300 :
+      this.isDraft === undefined && this.mesh.corners > 1e6;
     const ramp = this.shades.apply(this.options.colour, this.time);
     this.stages.forEach((stage, picture) => {
       stage.resize(this.moving ? this.quality : 1);
@@ -248,16 +243,6 @@ class Replay {
     this.pace = this.pace ? 0.85 * this.pace + 0.15 * since : 60;
     if (this.pace > 75 && this.quality > 0.45)
       [this.quality, this.pace] = [this.quality - 0.2, 0];
-  }
-
-  // For tests: the picture as bytes, red green blue alpha, the lowest row first.
-  pixels(stage = this.stages[0]) {
-    const { gl, canvas } = stage, bytes = new Uint8Array(4 * canvas.width * canvas.height);
-    this.moving = false;
-    this.draw();
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-    return { width: canvas.width, height: canvas.height, bytes };
   }
 }
 

@@ -45,8 +45,9 @@ class Shades {
         value: (g) => data.size[g] },
       none: { words: "", ramp: "stone", top: 1, share: (v) => v, value: (g) => (g * 0.618034) % 1 },
     };
+    const sums = sampled(data.contactFrames, 12).flatMap((frame) => [...this.forcesIn(frame)]);
     if (!data.contactFrames.length) delete this.choices.force;
-    else this.choices.force.top = this.topForce();
+    else this.choices.force.top = quantile(sums, 0.995) || 1;
   }
 
   speed(g, f) {
@@ -70,11 +71,6 @@ class Shades {
       if (b[c] < sum.length) sum[b[c]] += 0.5 * force[c];
     }
     return sum;
-  }
-  topForce() {
-    const frames = sampled(this.data.contactFrames, 12);
-    const sums = frames.flatMap((frame) => [...this.forcesIn(frame)]);
-    return quantile(sums, 0.995) || 1;
   }
 
   // Moves the data to a time, coloured by `name`.

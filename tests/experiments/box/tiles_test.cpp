@@ -1,5 +1,3 @@
-#include "experiments/box/tiles.hpp"
-
 #include "experiments/box/packing.hpp"
 #include "experiments/step/time_step.hpp"
 #include "platform/text.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/compare/collection_list.hpp"
+#include "experiments/compare/collection.hpp"
 
 #include <algorithm>
 #include <set>

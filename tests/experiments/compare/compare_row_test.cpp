@@ -18,7 +18,7 @@ TEST_CASE("A row survives its file to the last bit") {
   row.case_name = "a, \"b\"";
   row.note = "line\nbreak";
   row.error = 0.1 + 0.2;
-  row.fclib = std::nan("");
+  row.judged.fclib = std::nan("");
   row.verdict = Verdict::timeout;
   row.start = StartKind::warm;
   row.measure = Measure::fclib;
@@ -26,7 +26,7 @@ TEST_CASE("A row survives its file to the last bit") {
   const CompareRow back = compare_row_of_json(to_json(row), "file");
   CHECK(to_json(back) == to_json(row));
   CHECK(back.error == row.error);
-  CHECK(std::isnan(back.fclib));
+  CHECK(std::isnan(back.judged.fclib));
   REQUIRE(back.history.size() == 2);
   CHECK(back.history[1].error == 5e-324);
   CHECK(compare_csv(std::vector{row}).find("\"a, \"\"b\"\"\"") != std::string::npos);

@@ -18,7 +18,7 @@ inline CompareRow hand_made_row(const char* case_name, const char* solver, doubl
   r.verdict = verdict;
   r.solve_seconds = seconds;
   r.error = verdict == Verdict::solved ? 5e-5 : 1e-2;
-  r.natural_map_rms = r.error;
+  r.judged.natural_map_rms = r.error;
   r.facts.contacts = case_name[0] == 'x' ? 10 : 20;
   r.facts.mass_ratio = case_name[0] == 'x' ? 2.0 : 5.0;
   r.worst = "contact 3 <of> two";

@@ -203,7 +203,9 @@ TEST_CASE("Tables of rows and of steps have a line for each") {
   const std::string csv = live_csv(live);
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 4);
   CHECK(csv.find("\npgs,coulomb,0.1,0,complete,2,0.015,0.02,0,0.002,15,") != std::string::npos);
-  const std::string steps = steps_csv(live.trajectories[0]);
+  const TemporaryFolder folder;
+  write_steps_csv(folder.path() / "steps.csv", live.trajectories[0].steps);
+  const std::string steps = read_whole_file(folder.path() / "steps.csv");
   CHECK(std::count(steps.begin(), steps.end(), '\n') == 3);
   CHECK(std::count(steps.begin(), steps.begin() + static_cast<long>(steps.find('\n')), ',') + 1 ==
         static_cast<long>(step_columns().size()));

@@ -150,7 +150,7 @@ TEST_CASE("A solve brings back its answer, its history and where it is worst") {
   CHECK(row.verdict == Verdict::solved);
   CHECK(row.reason == "reached_tolerance");
   CHECK(row.error <= 1e-6);
-  CHECK(row.natural_map_rms > 0.0);
+  CHECK(row.judged.natural_map_rms > 0.0);
   CHECK(row.history.size() > 2);
   CHECK(row.history.back().iteration == row.iterations);
   CHECK_THAT(row.worst, Catch::StartsWith("contact "));
@@ -227,9 +227,9 @@ TEST_CASE("The natural map needs one round, in units of the velocity scale") {
   CHECK(budgets[0].max_iterations == 100000);
   CHECK(budgets[0].max_seconds <= 60.0);
   CHECK(row.verdict == Verdict::solved);
-  CHECK(row.natural_map_rms <= 1e-3 * 5.0);
+  CHECK(row.judged.natural_map_rms <= 1e-3 * 5.0);
   REQUIRE_FALSE(row.history.empty());
-  CHECK(row.history.back().error == Approx(row.natural_map_rms / 5.0));
+  CHECK(row.history.back().error == Approx(row.judged.natural_map_rms / 5.0));
 }
 
 TEST_CASE("Every backend stops on the measure of Siconos, and not far below it") {
@@ -249,11 +249,11 @@ TEST_CASE("Every backend stops on the measure of Siconos, and not far below it")
                  loaded, once, row);
       if (row.verdict == Verdict::unsupported) continue;  // NLopt's dense Jacobian: fewer contacts
       CHECK(budgets.size() == 1);
-      if (row.reason == "reached_tolerance") CHECK(row.fclib <= 1e-4);
+      if (row.reason == "reached_tolerance") CHECK(row.judged.fclib <= 1e-4);
       if (!slow.contains(entry.name)) continue;
       CHECK(row.verdict == Verdict::solved);
       // Who is there at its first look, after eight sweeps, had no chance to stop before.
-      if (row.iterations > 8) CHECK(row.fclib > 1e-6);
+      if (row.iterations > 8) CHECK(row.judged.fclib > 1e-6);
     }
   }
 }

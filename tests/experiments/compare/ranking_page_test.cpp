@@ -1,8 +1,7 @@
-#include "experiments/compare/ranking_page.hpp"
-
 #include <map>
 
 #include "experiments/compare/collection.hpp"
+#include "experiments/compare/ranking.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"

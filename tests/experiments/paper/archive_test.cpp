@@ -1,7 +1,6 @@
 // The campaign as a dataset: what is in it, that it can be checked, and that a reader draws it.
 
-#include "experiments/paper/archive.hpp"
-
+#include "experiments/paper/sections.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"

@@ -1,7 +1,6 @@
 // The article: every number in its prose comes from the report.
 
-#include "experiments/paper/article.hpp"
-
+#include "experiments/paper/sections.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "tests/catch.hpp"

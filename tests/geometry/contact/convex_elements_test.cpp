@@ -7,7 +7,6 @@
 #include "tests/catch.hpp"
 
 using namespace ballast;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -133,11 +132,4 @@ TEST_CASE("a pair keeps its keys when one of its bodies goes on into the next pe
     CHECK(after[k].feature == before[k].feature);
     CHECK((after[k].normal - before[k].normal).norm() < 1e-12);
   }
-}
-
-TEST_CASE("worlds that cannot repeat themselves are refused") {
-  ContactShape plane;
-  plane.plane.normal = Vec3(0.6, 0, 0.8);
-  CHECK_THROWS_WITH(ContactDetector({plane}, {}, {Vec3(1, 0, 0)}), Contains("cuts the period"));
-  CHECK_THROWS_WITH(ContactDetector({{&bar}}, {}, {Vec3(1, 0, 0)}), Contains("half a period"));
 }
