@@ -158,20 +158,27 @@ ContactError infinite_error() {
   return error;
 }
 
-/// max |M (v - v_free) - H^T r| with p = H^T r.
+/// max |M (v - v_free) - H^T r| with p = H^T r. `stopping`: the largest |M v_free| of a body that
+/// has an impulse.
 double momentum_residual(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots,
-                         const Eigen::VectorXd& v, const Eigen::VectorXd& p) {
+                         const Eigen::VectorXd& v, const Eigen::VectorXd& p, double& stopping) {
   double worst = 0.0;
   for (int b = 0; b < dynamics.body_count(); ++b) {
     const int dofs = dynamics.body_dofs(b), first = dynamics.dof_begin[b];
     const double* block = dynamics.mass.data() + dynamics.mass_begin[b];
+    double square = 0.0, impulse = 0.0;
     for (int i = 0; i < dofs; ++i) {
-      double sum = -p[first + i];
+      double sum = -p[first + i], momentum = 0.0;
       const bool diagonal = roots[b].diagonal;  // then one entry of the row is not zero
-      for (int k = diagonal ? i : 0; k < (diagonal ? i + 1 : dofs); ++k)
+      for (int k = diagonal ? i : 0; k < (diagonal ? i + 1 : dofs); ++k) {
         sum += block[k * dofs + i] * (v[first + k] - dynamics.v_free[first + k]);
+        momentum += block[k * dofs + i] * dynamics.v_free[first + k];
+      }
       worst = std::max(worst, std::abs(sum));
+      impulse = std::max(impulse, std::abs(p[first + i]));
+      square += momentum * momentum;
     }
+    if (impulse > 0.0) stopping = std::max(stopping, std::sqrt(square));
   }
   return worst;
 }
@@ -343,7 +350,7 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
 }
 
 /// The shares together, in their order. `fclib` is not yet divided by its scale.
-ContactError ContactJudge::gather(int contacts) const {
+ContactJudge::Share ContactJudge::gather(int contacts) const {
   Share all;
   all.min_normal_velocity = infinity;
   for (const Share& share : shares_) {
@@ -363,7 +370,6 @@ ContactError ContactJudge::gather(int contacts) const {
   all.fclib = std::sqrt(all.fclib);
   for (double* mean : {&all.approach_rms, &all.cone_rms, &all.complementarity_rms})
     *mean = std::sqrt(*mean / contacts);
-  all.growth = all.impulse_scale > 0.0 ? all.largest_impulse / all.impulse_scale : 0.0;
   return all;
 }
 
@@ -390,17 +396,20 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     shares_[begin / JudgeBlock::size] = judge_contacts(problem, r, begin, end);
   });
   // Sums over all rows, each by one thread: they are added in the same order whoever works.
-  ContactError error = gather(contacts);
-  double free_norm = 0.0, impulse_norm = 0.0, velocity_norm = 0.0;
+  Share error = gather(contacts);
+  double free_norm = 0.0, impulse_norm = 0.0, velocity_norm = 0.0, stopping = 0.0;
   bool are_finite[2] = {};
   run_parts(team_, 4, [&](int part) {
     if (part == 0) free_norm = q_.norm(), are_finite[0] = r.allFinite();
     if (part == 1) impulse_norm = r.norm(), are_finite[1] = u_.allFinite();
     if (part == 2) velocity_norm = u_.norm(), error.power = r.dot(u_);
     if (part == 3 && problem.has_dynamics)
-      error.momentum_residual = momentum_residual(problem.dynamics, masses_.roots(), v_, hr_);
+      error.momentum_residual =
+          momentum_residual(problem.dynamics, masses_.roots(), v_, hr_, stopping);
   });
   if (!are_finite[0] || !are_finite[1]) return infinite_error();
+  const double needed = std::max(error.impulse_scale, stopping);
+  error.growth = needed > 0.0 ? error.largest_impulse / needed : 0.0;
   // Siconos' measure, the scale of velocities, the power.
   const double scale = std::max({free_norm, impulse_norm, velocity_norm});
   if (scale > rounding) error.fclib /= scale;

@@ -179,6 +179,33 @@ TEST_CASE("impulses that swallow the velocities solve nothing") {
   CHECK(judged(squeezed_contacts(), r, StopReason::iteration_limit).verdict == Verdict::unsolved);
 }
 
+TEST_CASE("what stops a heavy body that touches light ones is no growth") {
+  // 1 kg at 1 m/s against a body of 1e-9 kg that lies on the floor: r_N = 1, 1 + 1e-9.
+  FrictionProblem problem;
+  problem.has_dynamics = true;
+  problem.row_begin = {0, 3, 6};
+  problem.friction = {0.5, 0.5};
+  DynamicsForm& d = problem.dynamics;
+  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+  d.add_body(one);
+  d.add_body(1e-9 * one);
+  d.body_a = {0, -1};
+  d.body_b = {1, 1};
+  d.h_begin = {0, 18, 27};
+  for (const double sign : {1.0, -1.0, 1.0})
+    for (int k = 0; k < 9; ++k) d.h.push_back(k % 4 == 0 ? sign : 0.0);
+  d.v_free = Eigen::VectorXd::Zero(6);
+  d.v_free[0] = d.v_free[3] = -1.0;
+  d.bias = Eigen::VectorXd::Zero(6);
+  const Impulses r = Impulses::Unit(6, 0) + (1.0 + 1e-9) * Impulses::Unit(6, 3);
+  SolverRun run = judged(problem, r);
+  CHECK(run.error.growth == Approx(1.0));
+  CHECK(run.verdict != Verdict::no_solution);
+  explained(problem, run, 1e-8);
+  CHECK(run.verdict != Verdict::no_solution);
+  CHECK(verdict_of(claimed, run.error, 1e-6) == Verdict::solved);
+}
+
 TEST_CASE("with much friction a small natural map is not enough") {
   // No impulse at all: the contact sinks in, and mu |u_T| hides it.
   SolverRun falls = judged(rough_contact(1e9), Impulses::Zero(3));
