@@ -39,6 +39,10 @@ Budget Budget::after(int iterations, double seconds) const {
 }
 
 void Solved::go_on(Solved next, double seconds) {
+  // What `next` says of the place where both meet replaces what was known.
+  if (!history.empty() && !next.history.empty() &&
+      history.back().iteration == iterations + next.history.front().iteration)
+    history.pop_back();
   for (const HistoryPoint& point : next.history)
     history.push_back({iterations + point.iteration, seconds + point.seconds, point.error});
   next.history = std::move(history);

@@ -27,6 +27,19 @@ TEST_CASE("what is left of a budget is never less than nothing, and the rest of 
   CHECK(whole.after(11, 3.0).max_seconds == 0.0);
 }
 
+TEST_CASE("the history of two solves booked as one holds no iteration twice") {
+  Solved solved, next;
+  solved.history = {{0, 0.0, 1.0}};
+  next.history = {{0, 0.0, 1.0}, {4, 0.5, 0.1}};
+  next.iterations = 4;
+  solved.go_on(next, 1.0);
+  REQUIRE(solved.history.size() == 2);
+  CHECK(solved.history[0].seconds == 1.0);
+  CHECK(solved.history[1].iteration == 4);
+  solved.go_on(next, 2.0);
+  CHECK(solved.history.size() == 3);
+}
+
 // Siconos' measure as a reason to stop: the judge's number, looked at when it may matter.
 
 TEST_CASE("it is reached where the judge says so, and aims at the natural map of that place") {
