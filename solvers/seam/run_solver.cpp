@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "platform/clock.hpp"
+#include "platform/text.hpp"
 #include "problems/algebra/no_solution.hpp"
 
 namespace ballast {
@@ -21,11 +22,11 @@ void validate_start(const FrictionProblem& problem, Impulses& start) {
     throw InvalidProblem("start has " + std::to_string(start.size()) +
                          " entries, the contacts have " + std::to_string(problem.row_count()) +
                          " rows");
-  if (start.allFinite()) return;
   for (Eigen::Index i = 0; i < start.size(); ++i)
-    if (!std::isfinite(start[i]))
-      throw InvalidProblem("start[" + std::to_string(i) + "] = " + std::to_string(start[i]) +
-                           " is not finite");
+    if (!(std::abs(start[i]) <= largest_entry))
+      throw InvalidProblem(
+          printed("start[%ld] = %g is ", static_cast<long>(i), start[i]) +
+          (std::isfinite(start[i]) ? printed("beyond %g", largest_entry) : "not finite"));
 }
 
 /// The first part of the law that the answer misses.
@@ -48,7 +49,8 @@ std::string what_is_missed(const ContactError& error, double tolerance) {
 
 }  // namespace
 
-Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance, bool by_fclib) {
+Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance, bool by_fclib,
+                   bool began_large) {
   const bool claimed = reason == StopReason::reached_tolerance;
   const bool grows = error.finite && error.growth > unbounded_growth;
   if (by_fclib ? error.finite && error.fclib <= tolerance && !grows : error.within(tolerance))
@@ -57,7 +59,7 @@ Verdict verdict_of(StopReason reason, const ContactError& error, double toleranc
   // tolerance is a pure number; contacts that sink in are measured in m/s.
   const double approach = by_fclib ? tolerance * error.velocity_scale : tolerance;
   const bool sinks = error.finite && error.immovable_approach > approach;
-  if (sinks || grows) return Verdict::no_solution;
+  if (sinks || (grows && !began_large)) return Verdict::no_solution;
   // Nobody can claim a tolerance of 0: it asks for none.
   return claimed && tolerance > 0.0 ? Verdict::denied : Verdict::unsolved;
 }
@@ -86,10 +88,10 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
   return text.str();
 }
 
-/// One call of the solver within what is left, and what came of it by what was asked: judged from
-/// the impulses alone, outside the stopwatch, whatever they are.
+/// One call of the solver within what is left, and what came of it: judged from
+/// the impulses alone, outside the stopwatch, whatever they are. No verdict yet.
 SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, Impulses start,
-                                const Budget& left, const Budget& asked, bool prepares) {
+                                const Budget& left, bool prepares) {
   SolverRun run;
   Stopwatch watch;
   try {
@@ -115,9 +117,6 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
     run.solved.reason = StopReason::numerical_failure;
   }
   run.error = judge_.judge(problem, run.solved.impulses, /*masses_are_known=*/true);
-  run.verdict =
-      verdict_of(run.solved.reason, run.error,
-                 asked.fclib ? asked.fclib->tolerance() : asked.tolerance, asked.fclib != nullptr);
   return run;
 }
 
@@ -125,7 +124,16 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
                             const Budget& budget) {
   problem.validate(&judge_.masses());
   validate_start(problem, start);
-  SolverRun run = attempt(solver, problem, std::move(start), budget, budget, true);
+  constexpr double much = 10.0;  // times the start: less is no growth
+  const double much_larger = much * start.lpNorm<Eigen::Infinity>();
+  const auto decide = [&](SolverRun& run) {
+    const bool began_large = run.solved.impulses.lpNorm<Eigen::Infinity>() <= much_larger;
+    run.verdict = verdict_of(run.solved.reason, run.error,
+                             budget.fclib ? budget.fclib->tolerance() : budget.tolerance,
+                             budget.fclib != nullptr, began_large);
+  };
+  SolverRun run = attempt(solver, problem, std::move(start), budget, true);
+  decide(run);
   if (budget.fclib) return run;  // its measure alone decides
   // Rounds to smaller natural maps while the solver keeps its word and the other parts of the law
   // are missed. Given up where the impulses leave every scale: no solver helps then.
@@ -140,9 +148,16 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
     const double ratio = ContactError::bound_factor * budget.tolerance / worst;
     target = std::min(target, error.natural_map_rms) * std::max(aim * ratio, largest_fall);
     Budget left = budget.after(run.solved.iterations, run.solve_seconds);
-    if (left.max_iterations < 1 || !(left.max_seconds > 0.0) || !(target > 0.0)) break;
+    if (left.max_iterations < 1 || !(left.max_seconds > 0.0)) {
+      run.solved.reason =
+          left.max_iterations < 1 ? StopReason::iteration_limit : StopReason::time_limit;
+      decide(run);
+      break;
+    }
+    if (!(target > 0.0)) break;
     left.tolerance = target;
-    SolverRun next = attempt(solver, problem, run.solved.impulses, left, budget, false);
+    SolverRun next = attempt(solver, problem, run.solved.impulses, left, false);
+    decide(next);
     // The tolerance that was asked for decides. Booked as one solve.
     if (next.error.within(budget.tolerance)) {
       next.solved.reason = StopReason::reached_tolerance;

@@ -24,8 +24,9 @@ struct SolverRun {
 /// Of impulses with that error, which a solver returned for that reason under that tolerance [m/s].
 /// `by_fclib`: the tolerance is one of Siconos' measure (ContactError::fclib), which alone decides.
 /// But it divides by |r|, so that what grows without bound meets it: that is no solution.
+/// `began_large`: the start was about as large as the impulses, so their size proves nothing.
 Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance,
-                   bool by_fclib = false);
+                   bool by_fclib = false, bool began_large = false);
 
 /// What came of a run under that tolerance [m/s], in one line: "solved", "the judge denies it: -u_N
 /// is 0.3 m/s (rms), at most 4e-08 may be", "no solution found; r grows without bound: ...". What
@@ -47,14 +48,14 @@ class SolverRunner {
   /// (much friction), it goes on from its answer to a smaller natural map, within the same budget.
   ///
   /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem, LostProcess. A start of
-  /// the wrong size is an InvalidProblem; an empty one means zero. Other exceptions of a backend
-  /// become reason = numerical_failure.
+  /// the wrong size, or with an entry beyond largest_entry, is an InvalidProblem; an empty one
+  /// means zero. Other exceptions of a backend become reason = numerical_failure.
   SolverRun run(Solver& solver, const FrictionProblem& problem, Impulses start,
                 const Budget& budget);
 
  private:
   SolverRun attempt(Solver& solver, const FrictionProblem& problem, Impulses start,
-                    const Budget& left, const Budget& asked, bool prepares);
+                    const Budget& left, bool prepares);
 
   ContactJudge judge_;
 };

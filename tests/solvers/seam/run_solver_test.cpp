@@ -88,8 +88,14 @@ TEST_CASE("a solver that stops on the natural map goes on until the law holds") 
   CHECK(puppet.solved < 10);
   // The budget is one budget.
   puppet.solved = 0;
-  SolverRunner().run(puppet, problem, {}, {.tolerance = 1e-5, .max_iterations = 5});
+  SolverRun ended =
+      SolverRunner().run(puppet, problem, {}, {.tolerance = 1e-5, .max_iterations = 5});
   CHECK(puppet.solved == 1);
+  CHECK(ended.solved.reason == StopReason::iteration_limit);
+  CHECK(ended.verdict == Verdict::unsolved);
+  ended = SolverRunner().run(puppet, problem, {}, {.tolerance = 1e-5, .max_seconds = 0.0});
+  CHECK(ended.solved.reason == StopReason::time_limit);
+  CHECK(ended.verdict == Verdict::unsolved);
 }
 
 TEST_CASE("an empty start means zero; a wrong one never reaches the solver") {
@@ -105,6 +111,9 @@ TEST_CASE("an empty start means zero; a wrong one never reaches the solver") {
   Impulses bad = known.r;
   bad[3] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(runner.run(puppet, known.problem, bad, {}), "start[3] = nan is not finite");
+  bad[3] = -1e31;
+  CHECK_THROWS_WITH(runner.run(puppet, known.problem, bad, {}),
+                    "start[3] = -1e+31 is beyond 1e+30");
   FrictionProblem broken = known.problem;
   broken.friction[0] = -1.0;
   CHECK_THROWS_AS(runner.run(puppet, broken, {}, {}), InvalidProblem);
@@ -204,6 +213,15 @@ TEST_CASE("what stops a heavy body that touches light ones is no growth") {
   explained(problem, run, 1e-8);
   CHECK(run.verdict != Verdict::no_solution);
   CHECK(verdict_of(claimed, run.error, 1e-6) == Verdict::solved);
+}
+
+TEST_CASE("impulses that a start brought along have not grown") {
+  const FrictionProblem problem = rough_contact(0.5);
+  const Impulses large = 1e9 * Impulses::Unit(3, 0);
+  Puppet puppet;
+  puppet.says(large, StopReason::iteration_limit);
+  CHECK(SolverRunner().run(puppet, problem, large, {}).verdict == Verdict::unsolved);
+  CHECK(SolverRunner().run(puppet, problem, {}, {}).verdict == Verdict::no_solution);
 }
 
 TEST_CASE("with much friction a small natural map is not enough") {
