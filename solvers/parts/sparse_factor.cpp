@@ -1,11 +1,19 @@
 #include "solvers/parts/sparse_factor.hpp"
 
+#include <mutex>
 #include <numeric>
 
 #include <cholmod.h>
 #include <Eigen/UmfPackSupport>
 
 namespace ballast {
+
+namespace {
+
+/// METIS seeds and reads the process's one rand(): two orderings at once would mix their numbers.
+std::mutex metis;
+
+}  // namespace
 
 bool has_sparse_factors() { return true; }
 
@@ -28,7 +36,10 @@ LuFactor::LuFactor() : state_(new State, [](State* state) { delete state; }) {
 bool LuFactor::factor(const SparseColumns& a) {
   if (!state_->pattern.is(a)) {
     state_->pattern.take(a);
-    state_->lu.analyzePattern(a);
+    {
+      const std::lock_guard alone(metis);
+      state_->lu.analyzePattern(a);
+    }
     if (state_->lu.info() != Eigen::Success) {
       state_->pattern = {};
       return false;
@@ -63,6 +74,7 @@ std::vector<int> dissection_order(const BlockGraph& graph) {
   cholmod_common common;
   cholmod_start(&common);
   common.print = 0;
+  const std::lock_guard alone(metis);
   if (!cholmod_metis(&view, nullptr, 0, 1, order.data(), &common))
     std::iota(order.begin(), order.end(), 0);
   cholmod_finish(&common);

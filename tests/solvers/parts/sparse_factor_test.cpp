@@ -1,5 +1,8 @@
 #include "solvers/parts/sparse_factor.hpp"
 
+#include <atomic>
+#include <thread>
+
 #include "platform/random.hpp"
 #include "tests/catch.hpp"
 
@@ -38,4 +41,28 @@ TEST_CASE("an LU factor solves unsymmetric systems, and knows singular ones", "[
     CHECK((a * x - b).norm() < 1e-11 * b.norm());
   }
   CHECK_FALSE(factor.factor(Eigen::MatrixXd::Ones(2, 2).sparseView()));
+}
+
+TEST_CASE("orderings are the same when several threads order at once", "[factors]") {
+  // A square grid.
+  constexpr int side = 60;
+  BlockGraph graph;
+  for (int k = 0; k < side * side; ++k) {
+    if (k >= side) graph.neighbour.push_back(k - side);
+    if (k % side > 0) graph.neighbour.push_back(k - 1);
+    if (k % side < side - 1) graph.neighbour.push_back(k + 1);
+    if (k < side * (side - 1)) graph.neighbour.push_back(k + side);
+    graph.begin.push_back(static_cast<int>(graph.neighbour.size()));
+    graph.unknown_begin.push_back(k + 1);
+  }
+  const std::vector<int> alone = dissection_order(graph);
+  std::atomic<int> others = 0;
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < 4; ++t)
+      threads.emplace_back([&] {
+        for (int k = 0; k < 10; ++k) others += dissection_order(graph) != alone;
+      });
+  }
+  CHECK(others == 0);
 }
