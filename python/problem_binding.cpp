@@ -38,8 +38,8 @@ FrictionProblem from_bodies(Eigen::SparseMatrix<double> m, Eigen::SparseMatrix<d
   return problem;
 }
 
-Impulses impulses_of(const FrictionProblem& problem, const Doubles& r) {
-  return own_rows(problem, vector_of(r, 3 * problem.contact_count(), "r"));
+Impulses impulses_of(const FrictionProblem& problem, const Doubles& r, const char* name = "r") {
+  return own_rows(problem, vector_of(r, 3 * problem.contact_count(), name));
 }
 
 /// W by rows, as SciPy has it: the problem's own memory where W is stored with three rows per
@@ -108,7 +108,7 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
   if (!(tolerance >= 0.0)) throw std::invalid_argument("tolerance: expected a number >= 0");
   if (max_iterations < 0) throw std::invalid_argument("max_iterations: expected a number >= 0");
   if (!(max_seconds >= 0.0)) throw std::invalid_argument("max_seconds: expected a number >= 0");
-  const Impulses from = start ? impulses_of(problem, *start) : Impulses();
+  const Impulses from = start ? impulses_of(problem, *start, "start") : Impulses();
   const auto solver = make_solver(name);
   SolverRun run;
   std::string words;

@@ -31,7 +31,7 @@ from ._ballast import (Error, InvalidProblem, MissingSolver, Scene as _Scene, Un
                        UnsupportedProblem, scenes, solvers)
 
 from ._files import Captured, Record, rows
-from ._problem import Path, Problem
+from ._problem import Path, Problem, _require_real
 from ._serve import Request, serve
 
 __all__ = ["Problem", "Answer", "Scene", "Captured", "Record", "Request", "solve", "judge", "rows",
@@ -81,6 +81,7 @@ def solve(problem: Problem, solver: str = "auto", *, tolerance: float = 1e-8,
     """Solves with one of solvers(). The tolerance is on the scaled natural map, rms over contacts,
     over the rms of q; with absolute=True it is in m/s. start: r [N s], (n, 3) or (3n). Other
     threads run meanwhile."""
+    _require_real(start)
     return Answer(problem, **_ballast.solve(problem._core, solver, float(tolerance), absolute,
                                             start, max_iterations, float(max_seconds)))
 
@@ -89,6 +90,7 @@ def judge(problem: Problem, r: np.ndarray) -> dict:
     """Every measure of impulses r [N s], (n, 3) or (3n), from r alone: natural_map_rms and _max
     [m/s], worst_contact, velocity_scale [m/s], fclib (what Siconos prints), approach_rms, cone_rms,
     complementarity_rms [m/s], and more; the program's `solve --help` says what each means."""
+    _require_real(r)
     return _ballast.judge(problem._core, r)
 
 
