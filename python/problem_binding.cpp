@@ -126,7 +126,7 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
       return is_interrupted = PyErr_CheckSignals() != 0;
     };
     run = SolverRunner().run(*solver, problem, from, budget);
-    words = explained(problem, run, tolerance);
+    words = explained(problem, run, tolerance, max_seconds);
   }
   if (is_interrupted) throw py::error_already_set();
   py::dict d;

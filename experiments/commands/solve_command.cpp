@@ -131,7 +131,7 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
       options.start.empty() ? Impulses() : read_solution(answer_of(file, options.start), problem);
   solved.run = runner.run(*solver, problem, start,
                           {solved.tolerance, options.max_iterations, options.max_seconds, false});
-  solved.words = explained(problem, solved.run, solved.tolerance);
+  solved.words = explained(problem, solved.run, solved.tolerance, options.max_seconds);
   fault = "not_kept";
   if (!options.output.empty()) keep_answer(problem, solved, options);
   return solved;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "platform/clock.hpp"
 #include "platform/text.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
@@ -14,10 +15,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// |W^T y| below this part of |W|^T y is rounding.
+constexpr double cancelled = 1e-12;
+
 /// W, q and the scale of impulses of one problem, for many weights.
 struct Prover {
   const FrictionProblem& problem;
-  SparseRows w;
+  SparseRows w, absolute;  ///< W; |W|, entry by entry
   Eigen::VectorXd q;
   std::vector<double> natural;  ///< impulse of each contact's island: NoSolution::least_growth
 
@@ -34,6 +38,8 @@ struct Prover {
     // Sums that cancel to rounding prove nothing.
     if (!(proof.approach > 1e-10 * q.cwiseAbs().dot(y))) return {};
     const double slope = (w.transpose() * y).norm();
+    // Without bodies nothing says which impulses are large: W^T y must be zero to rounding.
+    if (!problem.has_dynamics && slope > cancelled * (absolute.transpose() * y).norm()) return {};
     proof.least_impulse = slope > 0.0 ? proof.approach / slope : infinity;
     double scale = 0.0;
     for (int c = 0; c < problem.contact_count(); ++c)
@@ -83,9 +89,13 @@ void spread_over_islands(const FrictionProblem& problem, std::vector<double>& va
 
 }  // namespace
 
-NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps) {
+NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps,
+                                double max_seconds) {
+  const Stopwatch watch;
+  if (watch.has_passed(max_seconds)) return {};
   const int contacts = problem.contact_count();
-  Prover prover{problem, delassus_matrix(problem), {}, {}};
+  Prover prover{problem, delassus_matrix(problem), {}, {}, {}};
+  if (!problem.has_dynamics) prover.absolute = prover.w.cwiseAbs();
   free_contact_velocity(problem, prover.q);
   std::vector<Eigen::Matrix3d> diagonal;
   delassus_diagonal(problem, diagonal);
@@ -119,7 +129,7 @@ NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& 
   Eigen::VectorXd swept = Eigen::VectorXd::Zero(problem.row_count()), before;
   constexpr double most_work = 3e8;  // multiplications
   sweeps = static_cast<int>(std::min<double>(sweeps, most_work / (1.0 + prover.w.nonZeros())));
-  for (int k = 0; k < sweeps && !best.proved(); ++k) {
+  for (int k = 0; k < sweeps && !best.proved() && !watch.has_passed(max_seconds); ++k) {
     before = swept;
     prover.sweep(swept);
     for (int c = 0; c < contacts; ++c)
@@ -135,10 +145,10 @@ std::string NoSolution::words() const {
                               ? printed("contact %d sinks in at %.3g m/s", first_contact, approach)
                               : printed("%d contacts (one is %d) sink in at %.3g m/s in the mean",
                                         contacts, first_contact, approach);
-  return "there is no solution: " + who +
-         (std::isfinite(least_impulse)
-              ? printed(" whatever impulses below %.3g N s do", least_impulse)
-              : " whatever the impulses");
+  if (!std::isfinite(least_impulse))
+    return "there is no solution: " + who + " whatever the impulses";
+  return "no impulses of a sensible size are a solution: " + who +
+         printed(" whatever impulses below %.3g N s do", least_impulse);
 }
 
 }  // namespace ballast

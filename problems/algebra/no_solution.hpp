@@ -39,9 +39,10 @@ struct NoSolution {
 
 /// Searches weights: contacts that no impulse moves, the normal impulses of `r` (those of a solver
 /// that diverges tend to a proof), and what `sweeps` frictionless Gauss-Seidel sweeps add to them,
-/// sweep after sweep, fewer where W has more than 600,000 entries. Returns the best proof found;
-/// builds W. Throws InvalidProblem.
-NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r,
-                                int sweeps = 500);
+/// sweep after sweep, fewer where W has more than 600,000 entries or max_seconds are over. Where
+/// only W is known, W^T y = 0 to rounding is asked. Returns the best proof found; builds W, unless
+/// max_seconds are none. Throws InvalidProblem.
+NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps = 500,
+                                double max_seconds = 1e30);
 
 }  // namespace ballast

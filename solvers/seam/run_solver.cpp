@@ -64,9 +64,12 @@ Verdict verdict_of(StopReason reason, const ContactError& error, double toleranc
   return claimed && tolerance > 0.0 ? Verdict::denied : Verdict::unsolved;
 }
 
-std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance) {
+std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance,
+                      double max_seconds) {
   if (run.is_solved()) return "solved";
-  const NoSolution proof = look_for_no_solution(problem, run.solved.impulses);
+  constexpr int sweeps = 500;
+  const double left = max_seconds - run.prepare_seconds - run.startup_seconds - run.solve_seconds;
+  const NoSolution proof = look_for_no_solution(problem, run.solved.impulses, sweeps, left);
   // Sinking in by less than what is tolerated is no reason.
   if (proof.proved() && proof.approach > tolerance) {
     run.verdict = Verdict::no_solution;
@@ -97,7 +100,7 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
   try {
     if (prepares) solver.prepare(problem);
     if (prepares) run.prepare_seconds = watch.restart();
-    run.solved = solver.solve(problem, std::move(start), left);
+    run.solved = solver.solve(problem, std::move(start), left.after(0, run.prepare_seconds));
     const double all = watch.seconds();
     run.startup_seconds = std::min(run.solved.startup_seconds, all);
     run.solve_seconds = all - run.startup_seconds;
@@ -147,7 +150,7 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
     const double worst = std::max({error.approach_rms, error.cone_rms, error.complementarity_rms});
     const double ratio = ContactError::bound_factor * budget.tolerance / worst;
     target = std::min(target, error.natural_map_rms) * std::max(aim * ratio, largest_fall);
-    Budget left = budget.after(run.solved.iterations, run.solve_seconds);
+    Budget left = budget.after(run.solved.iterations, run.prepare_seconds + run.solve_seconds);
     if (left.max_iterations < 1 || !(left.max_seconds > 0.0)) {
       run.solved.reason =
           left.max_iterations < 1 ? StopReason::iteration_limit : StopReason::time_limit;

@@ -32,7 +32,9 @@ Verdict verdict_of(StopReason reason, const ContactError& error, double toleranc
 /// is 0.3 m/s (rms), at most 4e-08 may be", "no solution found; r grows without bound: ...". What
 /// is not solved is searched for a proof that there is no solution, which changes the verdict
 /// (look_for_no_solution: builds W, so never within a step).
-std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance);
+/// The search has what the run left of max_seconds.
+std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance,
+                      double max_seconds = 1e30);
 
 /// Keeps the judge's workspace between calls.
 class SolverRunner {

@@ -56,6 +56,29 @@ TEST_CASE("a heavy body on a light one is no problem without solution, however h
   }
 }
 
+TEST_CASE("a stiff W without bodies that hardly sees some weights proves nothing") {
+  // A body of 1 kg at rest on one of 1e-9 kg that sinks into the floor: r_N = 1, 1 + 1e-9.
+  const double k = 1e9;
+  Eigen::MatrixXd w = k * Eigen::MatrixXd::Identity(6, 6);
+  w.topRightCorner(3, 3) = w.bottomLeftCorner(3, 3) = -k * Eigen::Matrix3d::Identity();
+  w.topLeftCorner(3, 3) += Eigen::Matrix3d::Identity();
+  const FrictionProblem problem = stored_problem({0.5, 0.5}, w, -Impulses::Unit(6, 3));
+  CHECK_FALSE(look_for_no_solution(problem, Impulses::Zero(6)).proved());
+  const Impulses r = Impulses::Unit(6, 0) + Impulses::Unit(6, 3);
+  CHECK_FALSE(look_for_no_solution(problem, r).proved());
+}
+
+TEST_CASE("a proof below some size does not say that there is no solution") {
+  NoSolution proof{.least_impulse = 1e9, .least_growth = 1e9, .approach = 1.0, .contacts = 1};
+  CHECK(proof.words() ==
+        "no impulses of a sensible size are a solution: contact 0 sinks in at 1 m/s whatever "
+        "impulses below 1e+09 N s do");
+}
+
+TEST_CASE("no proof is searched when the time is over") {
+  CHECK_FALSE(look_for_no_solution(squeezed_contacts(), Impulses::Zero(6), 500, 0.0).proved());
+}
+
 TEST_CASE("a heavy body elsewhere hides no proof") {
   FrictionProblem problem;
   problem.has_dynamics = true;

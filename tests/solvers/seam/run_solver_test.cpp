@@ -253,6 +253,8 @@ TEST_CASE("what is not solved says why, and is searched for a proof that it cann
   CHECK(explained(problem, early, 1e-8) == "unsolved: time_limit: why");
   CHECK(early.verdict == Verdict::unsolved);
   SolverRun none = judged(squeezed_contacts(), Impulses::Zero(6), StopReason::stalled);
+  none.prepare_seconds = 2.0;  // all that there was
+  CHECK(explained(squeezed_contacts(), none, 1e-8, 2.0) == "unsolved: stalled");
   CHECK(explained(squeezed_contacts(), none, 1e-8) ==
         "there is no solution: 2 contacts (one is 0) sink in at 1 m/s in the mean whatever the "
         "impulses");
