@@ -40,6 +40,12 @@ double read_number(const Hdf5Reader& file, const std::string& name, bool may_be_
   return value;
 }
 
+/// `otherwise` where it is not there or not finite.
+double optional_number(const Hdf5Reader& file, const std::string& name, double otherwise) {
+  const double value = file.has(name) ? file.read<double>(name, 1)[0] : otherwise;
+  return std::isfinite(value) ? value : otherwise;
+}
+
 void require_protocol(const Hdf5Reader& file, const std::string& group) {
   if (const int version = file.read_int(group + "protocol"); version != external_protocol)
     file.fail(group + "protocol = " + std::to_string(version) + ", this program speaks " +
@@ -312,18 +318,19 @@ ExternalAnswer read_answer(const std::filesystem::path& path, const ExternalRequ
     file.fail(answered + "id = " + std::to_string(id) + ", the request's is " +
               std::to_string(request.id) + ": this answers another problem");
   ExternalAnswer answer;
-  answer.status = file.read_int(answered + "status");
-  if (answer.status < 0 || answer.status > ExternalAnswer::out_of_memory)
-    file.fail(answered + "status = " + std::to_string(answer.status) + ", expected 0 to " +
-              std::to_string(ExternalAnswer::out_of_memory));
+  const double status = file.read<double>(answered + "status", 1)[0];
+  if (!(status >= 0.0 && status <= ExternalAnswer::out_of_memory))
+    file.fail(answered + printed("status = %g, expected 0 to %d", status,
+                                 static_cast<int>(ExternalAnswer::out_of_memory)));
+  answer.status = static_cast<int>(status);
   if (!answer.is_solution()) return answer;
   answer.impulses = read_impulses(file, answered + "r", request.problem);
   // What need not be there.
-  if (file.has(answered + "iterations")) answer.iterations = file.read_int(answered + "iterations");
-  if (answer.iterations < 0) file.fail(answered + "iterations is negative");
-  if (file.has(answered + "residual"))
-    answer.own_residual = read_number(file, answered + "residual", true);
-  if (file.has(answered + "seconds")) answer.seconds = read_number(file, answered + "seconds");
+  const double iterations = optional_number(file, answered + "iterations", 0.0);
+  if (iterations < 0.0) file.fail(answered + "iterations is negative");
+  answer.iterations = static_cast<int>(std::min<double>(iterations, request.max_iterations));
+  answer.own_residual = optional_number(file, answered + "residual", 0.0);
+  answer.seconds = optional_number(file, answered + "seconds", -1.0);
   answer.history = read_history(file);
   return answer;
 }

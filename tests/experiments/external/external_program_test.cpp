@@ -206,6 +206,18 @@ TEST_CASE("An answer comes back with the rows of the problem") {
   CHECK(read.history[1].error == 1e-7);
 }
 
+TEST_CASE("Optional numbers that say nothing cost no answer") {
+  Asked a;
+  a.answer.own_residual = a.answer.seconds = std::nan("");
+  a.answer.iterations = std::numeric_limits<int>::max();
+  write_answer(a.file, a.request, a.answer);
+  const ExternalAnswer read = read_answer(a.file, a.request);
+  CHECK(read.impulses == a.answer.impulses);
+  CHECK(read.own_residual == 0.0);
+  CHECK(read.seconds == -1.0);
+  CHECK(read.iterations == 77);
+}
+
 TEST_CASE("What is no answer is refused with the reason") {
   Asked a;
   CHECK_THAT(a.refusal(), Contains("no such file"));
@@ -218,6 +230,15 @@ TEST_CASE("What is no answer is refused with the reason") {
     a.answer.status = 7;
     write_answer(a.file, a.request, a.answer);
     CHECK_THAT(a.refusal(), Contains("status = 7, expected 0 to 6"));
+  }
+  SECTION("a status that is no number") {
+    Hdf5Writer file(a.file, Hdf5Storage::plain);
+    file.add_group("/ballast_answer");
+    file.add("/ballast_answer/protocol", std::vector<int>{1});
+    file.add("/ballast_answer/id", std::vector<int>{5});
+    file.add("/ballast_answer/status", std::vector<double>{std::nan("")});
+    file.commit();
+    CHECK_THAT(a.refusal(), Contains("status = nan, expected 0 to 6"));
   }
   SECTION("another problem's") {
     ExternalRequest other = a.request;
