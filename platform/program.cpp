@@ -90,8 +90,13 @@ ChildResult run_in_child(double max_seconds, const std::function<std::string()>&
 
 ChildProcess::ChildProcess(const std::function<void()>& live) {
   const pid_t parent = getpid();
+  // A signal to the child waits until our handlers are gone there: they would swallow it.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, &before);
   // From here on two processes run; the child never leaves this constructor.
   child_ = fork();
+  if (child_ != 0) pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (child_ < 0) throw_no_child();
   if (child_ > 0) return;
   // The kernel kills the child when its parent dies, whatever the parent dies of.
@@ -100,6 +105,7 @@ ChildProcess::ChildProcess(const std::function<void()>& live) {
   for (const int number :
        {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE, SIGCHLD, SIGABRT, SIGSEGV, SIGFPE})
     signal(number, SIG_DFL);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
   try {
     live();
   } catch (...) {

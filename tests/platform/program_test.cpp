@@ -13,6 +13,7 @@
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
+#include "platform/interrupt.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/environment_guard.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -126,6 +127,16 @@ TEST_CASE("a child ends with its object, and by signals as if nobody had caught 
   }
   signal(SIGTERM, SIG_DFL);
   CHECK(no_children());
+}
+
+TEST_CASE("a signal that comes while a child starts is not lost") {
+  const InterruptGuard guard;  // its handlers are the child's, too, at first
+  for (int k = 0; k < 100; ++k) {
+    ChildProcess asked(wait_for_ever);
+    asked.send(SIGTERM);
+    REQUIRE(status_of(asked) == 128 + SIGTERM);
+  }
+  CHECK_FALSE(InterruptGuard::requested());
 }
 
 TEST_CASE("a child dies with the process that made it") {
