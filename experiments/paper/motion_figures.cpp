@@ -407,7 +407,10 @@ void fill_rates(PaperData& data, PaperSection& section) {
     panel.curves.push_back(law_curve({.gain = paper::gain_per_period, .critical = paper_peak},
                                      curve, "the paper’s Eq. 5", Ink::grey));
   }
-  if (!slow) return;
+  if (!std::isfinite(gain.mean)) {
+    section.notes.push_back("PARTIAL: no run at 5 Hz has a whole period.");
+    return;
+  }
   words["gain"] = words_of(gain);
   section.draw("fig13", {.height = 520, .panels = {panel}}, words);
   section.claim("fig13.gain", words, PaperRange::roughly(paper::gain_per_period), found(gain));

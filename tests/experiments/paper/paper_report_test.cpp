@@ -77,6 +77,23 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
   CHECK(rows.size() == data.rows().size());
 }
 
+TEST_CASE("where no run at 5 Hz has a whole period, the rates are partial and say so") {
+  TemporaryFolder folder;
+  PaperData made =
+      written(folder.path(), {"frequency"}, {}, [](const PlannedRun&, const Scene& scene) {
+        return scene.drive.frequency >= 5.0 && scene.drive.frequency <= 10.0 &&
+               scene.grains->seed == 1;
+      });
+  std::vector<RunRow> rows = made.rows();
+  for (RunRow& row : rows)
+    if (row["frequency"] == 5.0) row["gain"] = not_known;
+  PaperData data(made.campaign(), folder.path() / "no_runs", rows);
+  const PaperSection section = section_named(data, "fig13");
+  CHECK(std::ranges::count(section.notes,
+                           page::Text("PARTIAL: no run at 5 Hz has a whole period.")) == 1);
+  CHECK_FALSE(section.claims.empty());
+}
+
 TEST_CASE("both pages say the same words, and what was found stands before the sections") {
   PaperSection section;
   section.id = "fig9";
