@@ -13,6 +13,7 @@
 #include "geometry/shape/mesh_file.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
+#include "platform/hdf5_file.hpp"
 #include "platform/text.hpp"
 #include "problems/files/problem_file.hpp"
 #include "problems/scene/scene_file.hpp"
@@ -126,11 +127,23 @@ StoredForms forms_of(const std::string& name) {
   throw std::invalid_argument("'" + name + "': expected one of local, global, both");
 }
 
+/// Throws Error unless nothing is there, or a problem of ours that holds no more than that.
+void require_replaceable(const fs::path& target) {
+  if (!is_file(target)) return;
+  const Hdf5Reader file(target);
+  const std::string root = file.has("/fclib_local") ? "/fclib_local" : "/fclib_global";
+  constexpr const char* others[] = {"/ballast", "/ballast_request", "/ballast_answer", "/solution"};
+  if (!file.has(root + "/info/title") || file.read_text(root + "/info/title") != "ballast" ||
+      std::ranges::any_of(others, [&](const char* group) { return file.has(group); }))
+    throw Error(target.string() + ": is no problem of convert: it would be written over");
+}
+
 /// Into `target`, which no other problem is in.
 void convert_one(const FoundProblem& found, StoredForms forms, const fs::path& target) {
   std::error_code error;
   if (fs::equivalent(target, found.file, error))
     throw Error(target.string() + ": would be written over what is read");
+  require_replaceable(target);
   const FrictionProblem problem = read_problem(found.file);
   if (forms == StoredForms::as_known && !problem.has_dynamics)
     throw Error("only W is known: there are no bodies for the global form");
@@ -246,8 +259,10 @@ Command check_command() {
         above(0)},
        {"--hull", &options->hull, "Meshes: the convex hull of the vertices, for scanned grains"}},
       [options] {
-        for (const std::string& file : options->files)
-          std::cout << file << ": " << check(file, *options) << '\n';
+        for (const std::string& file : options->files) {
+          const std::string what = check(file, *options);
+          std::cout << file << ": " << what << '\n';
+        }
         return ExitCode::ok;
       }};
 }

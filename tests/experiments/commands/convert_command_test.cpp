@@ -1,5 +1,6 @@
 // `ballast convert` as it is called.
 
+#include "platform/hdf5_file.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
@@ -51,6 +52,25 @@ TEST_CASE("one problem becomes one file") {
   CHECK(ballast_program({"convert", c.in.string(), "--output", (c.out / "folder.dat").string()})
             .status == 0);
   CHECK(find_problems((c.out / "folder.dat").string()).size() == 2);
+}
+
+TEST_CASE("only what convert wrote is written over") {
+  const ProblemFolder c;
+  const fs::path target = c.out / "a.hdf5";
+  const std::vector<std::string> words{"convert", (c.in / "a.hdf5").string(), "--output", target};
+  REQUIRE(ballast_program(words).status == 0);
+  CHECK(ballast_program(words).status == 0);
+  const auto refuses = [&] {
+    const auto before = fs::last_write_time(target);
+    check_failure(ballast_program(words), ExitCode::failure,
+                  {target.string() + ": is no problem of convert"});
+    CHECK(fs::last_write_time(target) == before);
+  };
+  write_problem(target, c.known.problem, StoredForms::both,
+                [](Hdf5Writer& file) { file.add_group("/ballast"); });
+  refuses();
+  write_solution(target, c.known.problem, {.r = c.known.r, .numbers = {}, .texts = {}});
+  refuses();
 }
 
 TEST_CASE("what cannot be converted is said, and the others are") {

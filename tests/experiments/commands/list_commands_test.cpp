@@ -14,6 +14,12 @@ TEST_CASE("solvers are listed with what they are, as a table") {
     CHECK_THAT(table.output, Catch::Contains("\n" + std::string(entry.name) + " "));
 }
 
+TEST_CASE("a check that fails leaves whole lines") {
+  const ProgramResult result = ballast_program({"check", "incline", "none.toml"});
+  check_failure(result, ExitCode::failure, {"none.toml"});
+  CHECK_THAT(result.output, Catch::StartsWith("incline: ") && Catch::EndsWith("\n"));
+}
+
 TEST_CASE("scenes are listed, printed, resolved") {
   const ProgramResult list = ballast_program({"scenes"});
   for (const auto& [name, title] : list_scenes())
