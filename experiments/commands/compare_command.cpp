@@ -243,6 +243,8 @@ ExitCode compare(CompareRequest& options) {
   const std::filesystem::path output = options.comparison.folder;
   require_own_folder(output, {{"manifest.json", "\"scene\": \"compare\""},
                               {"manifest.json", "\"scene\": \"compare --live"}});
+  if (RunFolder(output).has_run())  // of a scene that is called compare
+    throw Error(output.string() + ": holds a run: give a folder that is new or empty");
   if (!options.external.empty() && !options.live.scene.empty())
     throw UsageError("compare: --external: not with --live, whose solver works inside the step");
   restart_with_one_algebra_thread();

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "tests/support/program.hpp"
@@ -149,4 +150,10 @@ TEST_CASE("a damaged row is made again, and a folder of somebody's is left alone
   check_failure(ballast_program(comparison(theirs, "pgs")), ExitCode::failure,
                 {theirs.string(), "holds files"});
   CHECK(read_whole_file(theirs / "results.csv") == "the user's own");
+  // the run of a scene that is called compare
+  const RunFolder run(folder.path() / "run");
+  run.begin("scene", Manifest("compare", {}, "key"), false);
+  check_failure(ballast_program(comparison(run.path(), "pgs")), ExitCode::failure,
+                {run.path().string(), "holds a run"});
+  CHECK(Manifest::read(run.manifest()).key() == "key");
 }
