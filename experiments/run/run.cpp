@@ -115,8 +115,17 @@ class Run {
     return watch_.seconds() < options_.max_seconds ? ExitCode::ok : ExitCode::time_limit;
   }
 
+  /// Nothing is left to do; that is said.
+  bool is_finished() const {
+    if (!options_.resume || !folder_.has_run() || !folder_.is_finished(resolved_.key)) return false;
+    if (options_.style != Progress::Style::quiet)
+      std::cout << folder_.path().string() << ": finished already" << std::endl;
+    return true;
+  }
+
   /// Nobody else works in the folder from here on. False: there is nothing to do in it.
   bool open_folder() {
+    if (is_finished()) return false;  // also where nothing may be written
     create_folder(folder_.path());
     lock_.emplace(folder_.path() / "run.lock", briefly);
     lock_->require_held();
@@ -125,11 +134,7 @@ class Run {
       folder_.begin(resolved_.text, manifest_, options_.overwrite);
       return true;
     }
-    if (folder_.is_finished(resolved_.key)) {
-      if (options_.style != Progress::Style::quiet)
-        std::cout << folder_.path().string() << ": finished already" << std::endl;
-      return false;
-    }
+    if (is_finished()) return false;  // meanwhile
     if (read_whole_file(folder_.scene()) == resolved_.text) {
       manifest_ = Manifest::read(folder_.manifest());
       if (manifest_.key() == resolved_.key) return true;  // it knows the meshes too

@@ -139,6 +139,9 @@ TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is"
   CHECK(run(options).code == ExitCode::ok);
   CHECK(fs::last_write_time(RunFolder(folder).manifest()) == written);
   CHECK_FALSE(fs::exists(folder / "run.lock"));
+  // where there is nothing to do no lock is needed, as in a folder that may only be read
+  fs::create_directory(folder / "run.lock");
+  CHECK(run(options).was_finished);
 }
 
 TEST_CASE("a folder refuses what would lose a run") {
