@@ -66,6 +66,8 @@ Hdf5Shape select_rows(const Hdf5File& file, const Hdf5Id& space, size_t first, s
 }
 
 hid_t open_for_reading(const Hdf5File& file, const std::filesystem::path& path) {
+  if (access(path.c_str(), R_OK) != 0 && errno != ENOENT && errno != ENOTDIR)
+    throw_file_error(path, "open");
   if (!is_file(path)) file.fail(is_there(path) ? "not a regular file" : "no such file");
   // The signature first, so that a text file and a truncated HDF5 file get different answers.
   if (H5Fis_hdf5(path.c_str()) <= 0) file.fail("not an HDF5 file");

@@ -74,6 +74,9 @@ TEST_CASE("what is no HDF5 file is told apart") {
   CHECK(opened() == "damaged or truncated HDF5 file");
   CHECK(complaint_about(folder.path(), [&] { Hdf5Reader file(folder.path()); }) ==
         "not a regular file");
+  fs::remove(path);
+  fs::create_symlink(path, path);
+  CHECK(opened() == "cannot open: Too many levels of symbolic links");
 }
 
 TEST_CASE("what a file does not have is named") {
