@@ -240,10 +240,11 @@ Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c) {
 // name it.
 namespace {
 
-/// Asymmetry |x_ij - x_ji| of a block, relative to its diagonal. Stored Delassus operators:
-/// implicit gyroscopic terms make some of them truly unsymmetric (FCLIB's RockPile by 2 %, others
-/// by 16 %), and the law is asked of W as it is; only a block whose antisymmetric part outweighs
-/// its diagonal is taken for something else.
+/// Asymmetry |x_ij - x_ji| of a block, relative to its diagonal. Masses: rounding of rotated
+/// inertias. Stored Delassus operators: implicit gyroscopic terms make some of them truly
+/// unsymmetric (FCLIB's RockPile by 2 %, others by 16 %), and the law is asked of W as it is; only
+/// a block whose antisymmetric part outweighs its diagonal is taken for something else.
+constexpr double mass_asymmetry = 1e-10;
 constexpr double delassus_asymmetry = 2.0;
 /// Below zero by this much, relative, a minor of a stored block is taken for rounding: some files
 /// hold six digits.

@@ -29,9 +29,6 @@ inline constexpr double largest_friction = 1e4;
 /// Greatest size of any entry, and least of a mass and of W_cc where it is not zero. In between no
 /// square, product or determinant that a solver makes overflows.
 inline constexpr double largest_entry = 1e30, smallest_scale = 1e-30;
-/// By how much the two halves of a body's mass block may differ, as a part of its diagonal: the
-/// rounding of rotated inertias.
-inline constexpr double mass_asymmetry = 1e-10;
 
 /// A problem that no solver may see; what() names the array, the index and the value.
 class InvalidProblem : public std::runtime_error {

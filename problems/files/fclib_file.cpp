@@ -20,16 +20,9 @@ template <int size>
 bool group(const GlobalProblem& global, Division& division) {
   const int unknowns = static_cast<int>(global.m.rows());
   if (unknowns % size > 1) return false;
-  const auto is_symmetric = [&](int row, int column, double value) {
-    const double scale = global.m.coeff(row, row) * global.m.coeff(column, column);
-    const double apart = value - global.m.coeff(column, row);
-    return apart == 0.0 || apart * apart <= mass_asymmetry * mass_asymmetry * scale;
-  };
   for (int column = 0; column < unknowns; ++column)
     for (SparseColumns::InnerIterator entry(global.m, column); entry; ++entry)
-      if (entry.value() != 0.0 && (entry.row() / size != column / size ||
-                                   !is_symmetric(entry.row(), column, entry.value())))
-        return false;
+      if (entry.value() != 0.0 && entry.row() / size != column / size) return false;
   division = {};
   for (int first = 0; first < unknowns; first += size)
     division.dof_begin.push_back(std::min(first + size, unknowns));

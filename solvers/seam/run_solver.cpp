@@ -91,8 +91,8 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
   return text.str();
 }
 
-/// One call of the solver within what is left, and what came of it: judged from
-/// the impulses alone, outside the stopwatch, whatever they are. No verdict yet.
+/// One call of the solver within what is left, and what came of it: judged from the impulses alone,
+/// outside the stopwatch, whatever they are. No verdict yet.
 SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, Impulses start,
                                 const Budget& left, bool prepares) {
   SolverRun run;
@@ -130,7 +130,8 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
   constexpr double much = 10.0;  // times the start: less is no growth
   const double much_larger = much * start.lpNorm<Eigen::Infinity>();
   const auto decide = [&](SolverRun& run) {
-    const bool began_large = run.solved.impulses.lpNorm<Eigen::Infinity>() <= much_larger;
+    const bool began_large = run.error.growth > unbounded_growth &&
+                             run.solved.impulses.lpNorm<Eigen::Infinity>() <= much_larger;
     run.verdict = verdict_of(run.solved.reason, run.error,
                              budget.fclib ? budget.fclib->tolerance() : budget.tolerance,
                              budget.fclib != nullptr, began_large);

@@ -59,9 +59,6 @@ TEST_CASE("bodies survive the way through a global problem") {
 }
 
 TEST_CASE("unknowns are grouped by six, or else by three") {
-  GlobalProblem skew = unit_masses(12, {{0, 7}, {5}});
-  skew.m.coeffRef(3, 4) = 0.02;  // an iteration matrix
-  CHECK(!to_friction_problem(skew).has_dynamics);
   const FrictionProblem rigid = to_friction_problem(unit_masses(12, {{0, 7}, {5}}));
   REQUIRE(rigid.has_dynamics);
   CHECK(rigid.dynamics.dof_begin == std::vector<int>{0, 6, 12});
