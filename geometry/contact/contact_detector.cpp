@@ -117,11 +117,11 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   for (size_t k = 1; k < s.parts.size(); ++k) count += s.parts[k].found.size();
   if (count > contacts.capacity()) contacts.reserve(count + count / 8);  // room for later steps
   for (size_t k = 0; k < s.parts.size(); ++k) {
-    for (const auto count :
+    for (const auto counter :
          {&DetectionCounters::candidate_pairs, &DetectionCounters::cached_separations,
           &DetectionCounters::proved_axes, &DetectionCounters::full_tests,
           &DetectionCounters::manifolds})
-      s.counters.*count += s.parts[k].counters().*count;
+      s.counters.*counter += s.parts[k].counters().*counter;
     if (k > 0) contacts.insert(contacts.end(), s.parts[k].found.begin(), s.parts[k].found.end());
   }
   if (s.elements) s.elements->name_bodies(contacts);

@@ -27,8 +27,8 @@ std::uint64_t crossing_key(int reference, std::span<const CollisionShape::Corner
 }
 
 /// Side k of the prism on a face, along its normal or along `direction`.
-CollisionShape::Side prism_side(const CollisionShape::FaceView& face, size_t k,
-                                const Vec3* direction) {
+[[gnu::always_inline]] inline CollisionShape::Side prism_side(const CollisionShape::FaceView& face,
+                                                              size_t k, const Vec3* direction) {
   if (!direction) return face.sides[k];
   const Vec3& from = face.corners[k].position;
   const Vec3 along = face.corners[k + 1 < face.corners.size() ? k + 1 : 0].position - from;

@@ -59,7 +59,7 @@ ContactError one_by_one(const FrictionProblem& p, const Impulses& r, const Eigen
   e.natural_map_rms = std::sqrt(e.natural_map_rms / counted);
   for (double* mean : {&e.approach_rms, &e.cone_rms, &e.complementarity_rms})
     *mean = std::sqrt(*mean / p.contact_count());
-  if (p.has_dynamics) {
+  if (p.has_dynamics && largest > 1e6 * needed) {
     const Eigen::VectorXd momenta = oracle::dense_mass(p) * p.dynamics.v_free;
     for (int b = 0; b < p.dynamics.body_count(); ++b)
       needed = std::max(needed,
