@@ -32,8 +32,8 @@ struct ContactError {
   /// Largest -u_N of a contact with W_cc = 0 [m/s]: above 0 no impulse answers the problem.
   double immovable_approach = 0.0;
   /// |r|_max over the largest |q_c| / lambda_max(W_cc), what one contact alone would need; beyond
-  /// 1e6 also over |M v_free| of a body with impulses, what would stop it. Grows without bound where
-  /// a solver finds no solution.
+  /// 1e6 also over |M v_free| of a body with impulses, what would stop it. Grows without bound
+  /// where a solver finds no solution.
   double growth = 0.0;
 
   double cone_violation = 0.0;       ///< max over contacts of |r - P_K(r)| [N s]
