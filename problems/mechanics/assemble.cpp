@@ -185,7 +185,8 @@ void ProblemAssembler::write_rows(const StepInput& step) {
 void ProblemAssembler::write_bias(const StepInput& step) {
   DynamicsForm& dynamics = problem_.dynamics;
   imposed_part(step, step.end_time, dynamics.bias);
-  imposed_part(step, step.state.time, imposed_before_);
+  if (some_motion_is_imposed_ || !restitution_.empty())
+    imposed_part(step, step.state.time, imposed_before_);
   if (some_motion_is_imposed_) imposed_ = dynamics.bias;
   // Without restitution an open point may close its gap within the step: u_N + gap / h >= 0.
   for_contacts([&](int c) {
