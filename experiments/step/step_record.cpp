@@ -11,14 +11,16 @@ namespace {
 
 constexpr StepColumn columns[] = {
     {"time", "s", "end of the step, from the start of the drive", &StepRecord::time},
-    {"wall_x", "m", "outward displacement of the driven wall from its start (Fig. 3)",
+    {"wall_x", "m",
+     "outward displacement of the first driven wall from its start (Fig. 3); 0: there is none",
      &StepRecord::wall_x},
     {"wall_v", "m/s", "outward velocity of the driven wall", &StepRecord::wall_v},
     {"load", "N", "compressive driving force f at mid-step (Eq. 1)", &StepRecord::load},
     {"wall_force", "N", "force f_g of the grains on the driven wall, mean over the step",
      &StepRecord::wall_force},
     {"solid_fraction", "1",
-     "solid fraction in the control volume, from the poses at the end of the step (Fig. 12)",
+     "solid fraction in the control volume, from the poses at the end of the step (Fig. 12); "
+     "0: without grains",
      &StepRecord::solid_fraction},
     {"contacts", "1", "contact points handed to the solver", &StepRecord::contacts},
     {"active_contacts", "1", "contact points with a positive normal impulse",
@@ -40,7 +42,7 @@ constexpr StepColumn columns[] = {
     {"work_gravity", "J", "work of gravity in this step, on the motion that velocities make",
      &StepRecord::work_gravity},
     {"work_prescribed", "J",
-     "work of walls with prescribed motion and of applied body forces in this step",
+     "work of imposed motions (walls and bodies) and of applied body forces in this step",
      &StepRecord::work_prescribed},
     {"dissipated", "J",
      "dissipated in contacts in this step: minus impulse times mean relative velocity",

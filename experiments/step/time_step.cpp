@@ -264,12 +264,12 @@ void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record)
 void TimeStepper::finish_motion(double end_time, MotionState& state) {
   assembler_.unpack(runner_.body_velocity(), state);
   for_bodies([&](int b) {
-    if (system_.bodies[b].imposed) {
-      follow(system_.bodies[b], end_time, state.pose[b], state.velocity[b], state.spin[b]);
-      return;
-    }
-    state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h_);
-    state.pose[b].position = system_.period.wrapped(state.pose[b].position);
+    const RigidBody& body = system_.bodies[b];
+    if (body.imposed)
+      follow(body, end_time, state.pose[b], state.velocity[b], state.spin[b]);
+    else
+      state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h_);
+    if (!body.is_wall()) state.pose[b].position = system_.period.wrapped(state.pose[b].position);
   });
   ++state.step;
   state.time = end_time;

@@ -234,9 +234,10 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   append(candidate, pair, axis, manifold_.points(pair, axis, limits), contacts);
 }
 
-/// A fixed body's side is no obstacle where the motion until the next detection leads past it. Then
-/// another facet separates the bodies there, and it stands for the pair now: where one lies over
-/// the other; elsewhere there is nothing yet to meet. False: the pair's own axis stands.
+/// A fixed body's side is no obstacle where the motion until the next detection leads past it: then
+/// a facet that separates the bodies now separates them best there too, and so all the way. It
+/// stands for the pair where one lies over the other; elsewhere there is nothing yet to meet.
+/// False: the pair's own axis stands, as where the motion leads through the fixed body.
 bool DetectionPart::passes(const CandidatePair& candidate, ManifoldLimits& limits,
                            SeparatingAxis& axis, std::vector<ContactPoint>& contacts) {
   if (limits.joint < 0.0 || bodies_.ahead.empty() || axis.separation < -limits.joint) return false;
@@ -256,11 +257,26 @@ bool DetectionPart::passes(const CandidatePair& candidate, ManifoldLimits& limit
   if (feature == axis.feature) return false;
   const ShapePair now = pair_at(bodies_.poses);
   const auto instead = evaluate_axis(now, feature, heights_);
+  const double separation =
+      instead ? instead->separation
+              : separation_along(bodies_.ahead[a].rotation * contact_normal(then, last), a, b);
+  if (separation < -limits.joint) return false;
   if (!instead) return last.separation >= -limits.joint;  // no facet yet
   axis = *instead;
   limits.is_passing = true;
   append(candidate, now, axis, manifold_.points(now, axis, limits), contacts);
   return true;
+}
+
+/// Of bodies a and b now, along a unit vector from a to b in the world frame [m].
+double DetectionPart::separation_along(const Vec3& normal_W, int a, int b) {
+  const auto least = [&](int body, const Vec3& direction) {
+    const auto& vertices = bodies_.shape(body)->vertices();
+    vertices.evaluate(bodies_.rotations[body].transpose() * direction, heights_.data());
+    return *std::min_element(heights_.begin(), heights_.begin() + vertices.count());
+  };
+  const Vec3 between = bodies_.poses[b].position - bodies_.poses[a].position;
+  return least(a, -normal_W) + normal_W.dot(between) + least(b, normal_W);
 }
 
 void DetectionPart::append(const CandidatePair& candidate, const PairFrame& frame,

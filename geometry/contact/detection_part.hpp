@@ -74,6 +74,7 @@ class DetectionPart {
   void fetch(const BroadPhase& broad_phase, size_t next) const;
   void detect_plane(int plane, std::vector<ContactPoint>& contacts);
   void detect_pair(CandidatePair& pair, std::vector<ContactPoint>& contacts);
+  double separation_along(const Vec3& normal_W, int a, int b);
   void append(const CandidatePair& candidate, const PairFrame& frame, const SeparatingAxis& axis,
               std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts);
   bool passes(const CandidatePair& candidate, ManifoldLimits& limits, SeparatingAxis& axis,

@@ -117,6 +117,7 @@ MechanicalSystem make_system(const Scene& scene, MotionState& state) {
     system.material_laws[std::minmax(pair.a, pair.b)] = {pair.friction, pair.restitution};
   // Bodies first, then walls: detection relies on that order.
   for (const BodySpec& body : scene.bodies) add_body(system, state, body, volume_of(body));
+  for (Pose& pose : state.pose) pose.position = system.period.wrapped(pose.position);
   for (const WallSpec& wall : scene.walls) add_wall(system, state, wall);
   return system;
 }

@@ -51,9 +51,9 @@ struct PairLaw {
 
 /// Positions at t_k, velocities at t_k. Everything that a step changes, apart from warm starts.
 struct MotionState {
-  double time = 0.0;
+  double time = 0.0;  ///< [s]
   long step = 0;
-  std::vector<Pose> pose;
+  std::vector<Pose> pose;      ///< body frame in the world frame [m]
   std::vector<Vec3> velocity;  ///< centre of mass, world frame [m/s]
   std::vector<Vec3> spin;      ///< angular velocity, body frame [rad/s]
 };
@@ -62,8 +62,8 @@ struct MotionState {
 struct MechanicalSystem {
   std::vector<RigidBody> bodies;
   std::vector<std::shared_ptr<const Polyhedron>> shapes;
-  int grain_count = 0;  ///< bodies [0, grain_count) are polyhedra, the rest are walls
-  Vec3 gravity = Vec3::Zero();
+  int grain_count = 0;          ///< bodies [0, grain_count) are polyhedra, the rest are walls
+  Vec3 gravity = Vec3::Zero();  ///< world frame [m/s^2]
   double friction = 0.0;
   double restitution = 0.0;
   Period period;
@@ -75,7 +75,7 @@ struct MechanicalSystem {
 };
 
 /// Bodies and walls of a scene, with the initial state. For scenes with `grains` use
-/// experiments/vibrated_box, which makes them.
+/// experiments/box/vibrated_box, which makes them.
 MechanicalSystem make_system(const Scene& scene, MotionState& state);
 
 /// Appends a body or a wall (walls last). Used by make_system and by the vibrated box.

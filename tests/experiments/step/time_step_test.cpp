@@ -130,6 +130,77 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("no step is long enough to fly through a thin fixed plate") {
+  for (const double steps_travel : {0.3, 0.8, 1.3, 2.9})
+    for (const bool is_imposed : {false, true}) {
+      Scene scene = empty_scene();
+      scene.gravity.setZero();
+      scene.step = 5e-3;
+      BodySpec plate = cube("plate", 2.0, 1.0, Vec3(0, 0, -0.01));
+      plate.shape = std::make_shared<const Polyhedron>(make_box(Vec3(2, 2, 0.02)));
+      plate.free = {false, false, false};
+      plate.free_rotation = false;
+      if (is_imposed) plate.imposed = ImposedMotion{};
+      BodySpec ball = cube("ball", 0.04, 1.0, Vec3(0.1, 0.13, 0.2));
+      ball.shape = std::make_shared<const Polyhedron>(make_sphere(0.02, 1));
+      ball.velocity = Vec3(0, 0, -steps_travel * 0.06 / scene.step);
+      scene.bodies = {ball, plate};
+      MotionState state;
+      const MechanicalSystem system = make_system(scene, state);
+      TimeStepper stepper(system, scene, -1);
+      StepMemory memory;
+      while (state.step < 40) CHECK(stepper.step(state, memory).penetration_max < 1e-9);
+      INFO("travel of a step over both sizes: " << steps_travel);
+      CHECK(state.pose[0].position.z() == Approx(0.02).margin(1e-3));
+      CHECK(state.velocity[0].norm() < 1e-6);
+    }
+}
+
+TEST_CASE("a cube whose rim meets the edge of a fixed table turns as over a heavy free one") {
+  const auto end_of = [](bool is_fixed) {
+    Scene scene = empty_scene();
+    scene.gravity.setZero();
+    scene.friction = 0.0;
+    BodySpec table = cube("table", 1.0, 1e9, Vec3(-0.5, 0, -0.5));
+    table.free = {false, false, !is_fixed};
+    table.free_rotation = false;
+    scene.bodies = {cube("falls", 0.1, 1.0, Vec3(0.049, 0, 0.0737)), table};
+    scene.bodies[0].velocity = Vec3(0, 0, -3);
+    MotionState state;
+    const MechanicalSystem system = make_system(scene, state);
+    TimeStepper stepper(system, scene, -1);
+    StepMemory memory;
+    while (state.step < 12) stepper.step(state, memory);
+    return state.spin[0].y();
+  };
+  CHECK(std::abs(end_of(true)) > 30.0);
+  CHECK(end_of(true) == Approx(end_of(false)).epsilon(1e-3));
+}
+
+TEST_CASE("a belt of imposed bodies stays within its period, and takes along what lies on it") {
+  Scene scene = empty_scene();
+  scene.period.vector = Vec3(2, 0, 0);
+  scene.bodies.push_back(cube("lies", 0.1, 1.0, Vec3(-0.3, 0, 0.05)));
+  for (int k = 0; k < 5; ++k) {
+    scene.bodies.push_back(cube("belt", 0.4, 1.0, Vec3(0.4 * k + 0.2, 0, -0.2)));
+    scene.bodies.back().imposed = ImposedMotion{};
+    scene.bodies.back().imposed->shift.rate = Vec3(-2, 0, 0);
+  }
+  scene.bodies[0].velocity = Vec3(-2, 0, 0);
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  CHECK(state.pose[0].position.x() == Approx(1.7));
+  TimeStepper stepper(system, scene, -1);
+  StepMemory memory;
+  while (state.step < 1500) {
+    stepper.step(state, memory);
+    for (const Pose& pose : state.pose)
+      if (!(pose.position.x() >= 0.0 && pose.position.x() < 2.0)) FAIL("step " << state.step);
+  }
+  CHECK(state.velocity[0].x() == Approx(-2.0).epsilon(1e-6));
+  CHECK(state.pose[0].position.x() == Approx(0.7).epsilon(1e-4));
+}
+
 TEST_CASE("a cube that sticks to a turning plate goes round, and leaves it where friction ends") {
   constexpr double radius = 0.2, mu = 0.4;
   const double limit = std::sqrt(mu * 9.81 / radius);
