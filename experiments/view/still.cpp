@@ -183,8 +183,8 @@ std::vector<std::pair<Rod, double>> chains_in(const ViewData& view, size_t frame
   for (const FrameContact& contact : contacts) {
     const auto [a, b] = std::minmax(contact.body_a, contact.body_b);  // walls come after grains
     const bool meets_wall = b >= view.system.grain_count;
-    const Vec3 way = view.system.period.nearest(centre(b) - centre(a));
-    const Vec3 to = meets_wall ? Vec3(contact.position.cast<double>()) : Vec3(centre(a) + way);
+    const Vec3 end = meets_wall ? Vec3(contact.position.cast<double>()) : centre(b);
+    const Vec3 to = centre(a) + view.system.period.nearest(end - centre(a));
     auto& [rod, force] =
         pairs.try_emplace({a, b}, Rod{centre(a), to, 0, 0, grey}, 0.0).first->second;
     force += static_cast<double>(contact.force.dot(contact.normal));

@@ -195,6 +195,7 @@ std::optional<ViewData> view_in_run(const fs::path& folder, const CapturedProble
     for (const int id : *ids)
       if (id < 0 || static_cast<size_t>(id) >= view.system.bodies.size()) return std::nullopt;
   if (frames.empty()) return std::nullopt;
+  if (const auto scene = read_run_data(folder).scene) view.system.period = scene->period;
   view.frames = {frames[nearest_frame(frames, captured.time)]};
   view.contacts = [contacts = contacts_of(captured)](size_t) { return contacts; };
   return view;

@@ -182,6 +182,26 @@ void pack_poses(const ViewData& view, const std::vector<size_t>& chosen, Json& h
   replay.parts.emplace_back("velocities", history_of(velocities, 3 * grains, 1));
 }
 
+/// How many periods each grain has gone on since the first frame, by the least ways between all
+/// frames; nothing where the world does not repeat itself.
+void pack_laps(const ViewData& view, const std::vector<size_t>& chosen, Json& head,
+               page::Replay& replay) {
+  const Vec3& period = view.system.period.vector;
+  if (!view.system.period.repeats()) return;
+  const auto grains = static_cast<size_t>(view.system.grain_count);
+  Words now(grains, 0), laps;  // modulo 2^16
+  for (size_t f = 0; f < view.frames.size(); ++f) {
+    for (size_t g = 0; f > 0 && g < grains; ++g) {
+      const Vec3 way = view.frames[f].pose[g].position - view.frames[f - 1].pose[g].position;
+      const long back = std::lround(way.dot(period) / period.squaredNorm());
+      now[g] = static_cast<std::uint16_t>(now[g] - back);
+    }
+    if (std::ranges::binary_search(chosen, f)) laps.insert(laps.end(), now.begin(), now.end());
+  }
+  head["period"] = {period.x(), period.y(), period.z()};
+  replay.parts.emplace_back("laps", history_of(laps, grains, 1));
+}
+
 void pack_walls(const ViewData& view, const std::vector<size_t>& chosen, Json& head,
                 page::Replay& replay) {
   head["walls"] = Json::array();
@@ -211,15 +231,9 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
   head["contact_frames"] = head["contact_counts"] = Json::array();
   for (const size_t k : thinned(chosen.size(), stride)) {
     const MotionState& frame = view.frames[chosen[k]];
-    std::vector<FrameContact> contacts = view.contacts(chosen[k]);
+    const std::vector<FrameContact> contacts = view.contacts(chosen[k]);
     // before its first step a run knows no forces: those of the next frame stand for them
     if (frame.step == 0 && contacts.empty()) continue;
-    // a chain across the end of a period would go all the way back
-    std::erase_if(contacts, [&](const FrameContact& contact) {
-      const Vec3 way = frame.pose[contact.body_b].position - frame.pose[contact.body_a].position;
-      return std::max(contact.body_a, contact.body_b) < view.system.grain_count &&
-             view.system.period.nearest(way) != way;
-    });
     head["contact_frames"].push_back(k);
     head["contact_counts"].push_back(contacts.size());
     int last = 0;
@@ -233,8 +247,8 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
       body_a.push_back(a - last);
       body_b.push_back(b - a);
       last = a;
-      const Vec3 place =
-          (contact.position.cast<double>() - frame.pose[a].position) / (1.02 * reach);
+      const Vec3 arm = contact.position.cast<double>() - frame.pose[a].position,
+                 place = view.system.period.nearest(arm) / (1.02 * reach);
       for (int i = 0; i < 3; ++i)
         places[i].push_back(
             static_cast<std::uint8_t>(128 + std::lround(127.0 * std::clamp(place[i], -1.0, 1.0))));
@@ -312,6 +326,7 @@ page::Replay pack_view(const ViewData& view, size_t most_bytes) {
     chosen = thinned(view.frames.size(), stride);
     replay.parts.resize(still_parts);
     pack_poses(view, chosen, head, replay);
+    pack_laps(view, chosen, head, replay);
     pack_walls(view, chosen, head, replay);
     if (chosen.size() <= 2 || page_bytes(replay, still_parts) <= pose_room) break;
   }

@@ -272,6 +272,50 @@ TEST_CASE("a body whose number needs more than 16 bits is seen where it is") {
   browser.wait_for("ballastReplay.isDraft === false");  // balls at first, then all corners
 }
 
+TEST_CASE("a body goes on where the world begins anew, and its way counts from the start") {
+  if (Browser::is_missing()) return;
+  const TemporaryFolder folder;
+  const fs::path mesh = folder.write("t.obj",
+                                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                     "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  ViewData view = view_of_mesh(mesh);
+  view.system.period.vector = Vec3(8.0, 6.0, 0.0);
+  view.system.bodies.resize(2, RigidBody(view.system.bodies[0]));
+  view.system.grain_count = 2;
+  // one follows the other, so near that they touch, nine periods on
+  const Vec3 velocity(4.0, 1.0, 0.0), gap(0.4, 0.2, 0.0), begin(1.0, 1.0, 2.0);
+  const Pose pose = view.frames[0].pose[0];
+  view.frames.clear();
+  for (int f = 0; f <= 24; ++f) {
+    MotionState& frame = view.frames.emplace_back();
+    frame.time = frame.step = f;
+    frame.pose.assign(2, pose);
+    frame.pose[0].position = view.system.period.wrapped(begin + f * velocity);
+    frame.pose[1].position = view.system.period.wrapped(begin + f * velocity + gap);
+    frame.velocity.assign(2, velocity);
+    frame.spin.assign(2, Vec3::Zero());
+  }
+  const Eigen::Vector3f x = Eigen::Vector3f::UnitX();
+  view.contacts = [x](size_t) { return std::vector<FrameContact>{{0, 1, x, x, x}}; };
+  write_view_page(view, folder.path() / "page.html");
+  Browser browser(900, 700);
+  browser.open(folder.path() / "page.html", "play=0", is_ready);
+  REQUIRE(browser.js("window.ballastReplayError || ''") == "");
+  for (double time = 0.0; time <= 24.0; time += 0.125) {
+    INFO(time);
+    const Json at = browser.js(
+        printed("(({ data, shades, marks }) => { data.moveTo(%.17g, shades.choices.displacement."
+                "value); const rods = []; marks.addChains(%.17g, rods, { threshold: 0 }); return "
+                "[...data.centreOf(0), data.state[3], ...rods]; })(ballastReplay)",
+                time, time));
+    const auto vector = [&](size_t k) { return Vec3(at[k], at[k + 1], at[k + 2]); };
+    const Vec3 way = time * velocity, place = view.system.period.wrapped(begin + way);
+    CHECK((vector(0) - place).norm() < 1e-2);
+    CHECK(std::abs(at[3].get<double>() - way.norm()) < 1e-2);
+    CHECK((vector(8) - vector(4) - gap).norm() < 1e-2);
+  }
+}
+
 TEST_CASE("where whole pictures come slowly, grains are balls while something moves") {
   if (Browser::is_missing()) return;
   Browser browser(900, 700);

@@ -48,9 +48,9 @@ function placeIn(times, time) {
 class Data {
   static async load() {
     const kinds = { shapes: Uint16Array, grains: Float32Array, positions: Uint16Array,
-      rotations: Uint16Array, velocities: Uint8Array, walls: Float32Array, series: Float32Array,
-      contact_bodies: Int32Array, contact_places: Uint8Array, contact_forces: Uint16Array,
-      contact_mobilised: Uint8Array, errors: Uint8Array }, parts = {};
+      rotations: Uint16Array, velocities: Uint8Array, laps: Int16Array, walls: Float32Array,
+      series: Float32Array, contact_bodies: Int32Array, contact_places: Uint8Array,
+      contact_forces: Uint16Array, contact_mobilised: Uint8Array, errors: Uint8Array }, parts = {};
     await Promise.all(Object.entries(kinds).map(async ([name, kind]) => {
       parts[name] = numbersOf(await partBytes(name), kind);
     }));
@@ -67,6 +67,7 @@ class Data {
     this.positions = historyOf(parts.positions, columns, 2);
     this.rotations = historyOf(parts.rotations, 4 * head.grains, 2);
     this.velocities = historyOf(parts.velocities, columns, 1);
+    this.laps = historyOf(parts.laps, head.grains, 1);
     this.mass = parts.grains.filter((_, k) => k % 2 === 0);
     this.size = parts.grains.filter((_, k) => k % 2)
       .map((volume) => Math.cbrt(6 * volume / Math.PI));
@@ -151,9 +152,17 @@ class Data {
     return { frame, next, span: this.times[next] - this.times[frame], u };
   }
 
+  // With the whole periods that it has gone: it does not jump where the world begins anew.
   positionOf(frame, g, k) {
-    const at = 3 * (frame * this.grains + g) + k;
-    return this.head.low[k] + this.positions[at] / 65535 * this.head.span[k];
+    const n = frame * this.grains + g, { low, span, period } = this.head;
+    return low[k] + this.positions[3 * n + k] / 65535 * span[k] +
+      (period ? this.laps[n] * period[k] : 0);
+  }
+  // Less whole periods: where a place is in the first one; with `ahead` 0.5 the least of ways.
+  wrapped(x, ahead = 0) {
+    const { period } = this.head;
+    return period ?
+      sub(x, times(period, Math.floor(dot(x, period) / dot(period, period) + ahead))) : x;
   }
   // From 8 bits with a root's steps.
   velocityOf(frame, g, k) {
@@ -178,8 +187,10 @@ class Data {
     for (let g = 0; g < this.grains; ++g) {
       const at = 8 * g;
       for (let k = 0; k < 3; ++k)
-        state[at + k] = h00 * this.positionOf(frame, g, k) + h10 * this.velocityOf(frame, g, k) +
+        p[k] = h00 * this.positionOf(frame, g, k) + h10 * this.velocityOf(frame, g, k) +
           h01 * this.positionOf(next, g, k) + h11 * this.velocityOf(next, g, k);
+      const place = this.wrapped(p);
+      for (let k = 0; k < 3; ++k) state[at + k] = place[k];
       this.rotationOf(frame, g, p);
       this.rotationOf(next, g, q);
       const same = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3] < 0 ? -u : u;

@@ -104,7 +104,8 @@ class Marks {
     for (const [a, b, force, c] of chains) {
       if (force < threshold * mean) continue;
       const { data } = this, from = data.centreOf(a);
-      const to = b < data.grains ? data.centreOf(b) : data.contactPlace(c);
+      const to = b < data.grains ?
+        add(from, data.wrapped(sub(data.centreOf(b), from), 0.5)) : data.contactPlace(c);
       if (cut && dot(cut, from) > cut[3] && dot(cut, to) > cut[3]) continue;
       const width = 0.24 * this.meanReach * Math.min(force / this.topChain, 1.3);
       addRod(rods, from, width, to, width,

@@ -114,6 +114,41 @@ TEST_CASE("shapes, walls, contacts and curves are in the head or in a part of it
   CHECK(static_cast<unsigned char>(forces[1]) + 256 * forces[5] == 2048);
 }
 
+TEST_CASE("a page knows the period, how often each grain has gone round, and all contacts") {
+  ViewData view = sample_view(40);
+  CHECK_FALSE(nlohmann::json::parse(pack_view(view).head).contains("period"));
+  view.system.period.vector = Vec3(0.8, 0.6, 0.0);
+  // the first goes on, the second back, the third across
+  const Vec3 ways[] = {{0.3, 0.0, 0.0}, {0.0, -0.5, 0.0}, {-0.6, 0.8, 0.0}};
+  for (size_t f = 0; f < 40; ++f)
+    for (size_t g = 0; g < 3; ++g)
+      view.frames[f].pose[g].position =
+          view.system.period.wrapped(0.1 * Vec3::Ones() + static_cast<double>(f) * ways[g]);
+  view.contacts = [frames = view.frames](size_t f) {
+    const Vec3 place = frames[f].pose[0].position + Vec3(0.81, 0.6, 0.0);  // one period on
+    return std::vector<FrameContact>{
+        {0, 1, place.cast<float>(), Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitX()}};
+  };
+  for (const size_t most_bytes : {replay_bytes, size_t{0}}) {
+    const page::Replay replay = pack_view(view, most_bytes);
+    const auto head = nlohmann::json::parse(replay.head);
+    CHECK(head["period"] == nlohmann::json({0.8, 0.6, 0.0}));
+    const size_t frames = head["times"].size();
+    CHECK(frames == (most_bytes > 0 ? 40 : 2));
+    const auto laps = unpacked<std::uint16_t>(part(replay, "laps"), 3, 1);
+    REQUIRE(laps.size() == 3 * frames);
+    CHECK((laps[0] == 0 && laps[1] == 0 && laps[2] == 0));
+    CHECK(laps[3 * frames - 3] == std::floor(0.14 + 39 * 0.24));
+    CHECK(static_cast<std::int16_t>(laps[3 * frames - 2]) == std::floor(0.14 - 39 * 0.3));
+    CHECK(laps[3 * frames - 1] == 0);
+    // none is left out, and each is where the grain is
+    for (const auto& count : head["contact_counts"]) CHECK(count == 1);
+    const double reach = 1.02 * view.system.bodies[0].shape.polyhedron->circumradius();
+    CHECK(part(replay, "contact_places")[0] ==
+          static_cast<char>(128 + std::lround(127.0 * 0.01 / reach)));
+  }
+}
+
 TEST_CASE("before the first step no forces are known: the next frame's stand for them") {
   ViewData view = sample_view(3);
   const auto frames_of = [](const ViewData& of) {
