@@ -109,7 +109,7 @@ void add_word(CLI::App& app, Word& word) {
   if (name.size() < word.name.size()) option->type_name(word.name.substr(name.size() + 1));
   // a list behind an option grows by one value each time; an argument takes all that follow
   if (name.starts_with("--") && std::holds_alternative<std::vector<std::string>*>(word.value))
-    option->take_all()->expected(1);
+    option->take_all()->expected(1)->allow_extra_args(false);
   if (std::holds_alternative<std::vector<int>*>(word.value))
     option->delimiter(',')->allow_extra_args(false);
   for (const Rule& rule : word.rules) rule(*option);

@@ -31,6 +31,8 @@ TEST_CASE("scenes are listed, printed, resolved") {
   resolved.erase(resolved.find(name, resolved.find("[scene]")), name.size());
   CHECK(ballast_program({"scenes", "incline", "--resolved"}).output == resolved);
   const ProgramResult changed = ballast_program({"scenes", "incline", "--set", "scene.step=1e-5"});
+  CHECK(ballast_program({"scenes", "--set", "scene.step=1e-5", "incline"}).output ==
+        changed.output);
   CHECK_THAT(changed.output, Catch::Contains("step = 1e-05"));
   check_failure(ballast_program({"scenes", "none"}), ExitCode::failure, {"none", "vibrated_box"});
   const TemporaryFolder folder;
