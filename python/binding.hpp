@@ -1,5 +1,5 @@
 #pragma once
-// What the files of the Python module share: arrays in and out.
+// What the files of the Python module share: arrays in and out, and the interpreter's lock.
 
 #include <pybind11/eigen.h>
 #include <pybind11/functional.h>
@@ -7,6 +7,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+
+#include <unistd.h>
 
 #include <stdexcept>
 #include <string>
@@ -52,6 +54,35 @@ inline py::array in_threes(Eigen::VectorXd x) {
   const py::ssize_t contacts = x.size() / 3;
   return owned(std::move(x), {contacts, 3});
 }
+
+/// While it lives, this thread does without the interpreter's lock, and Python's others run. When
+/// Python ends meanwhile, a thread that wants the lock is unwound, which no solver survives: it
+/// waits for the end of the process instead.
+class Unlocked {
+ public:
+  Unlocked() = default;
+  ~Unlocked() { lock(); }
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+  /// The handler of a signal, as Ctrl-C, has raised an exception: it is set.
+  bool is_interrupted() {
+    lock();
+    const bool raised = PyErr_CheckSignals() != 0;
+    state_ = PyEval_SaveThread();
+    return raised;
+  }
+
+ private:
+  void lock() const {
+    try {
+      PyEval_RestoreThread(state_);
+    } catch (...) {  // of pthread_exit()
+      for (;;) pause();
+    }
+  }
+  PyThreadState* state_ = PyEval_SaveThread();
+};
 
 void add_problems(py::module_& module);
 void add_scenes(py::module_& module);

@@ -115,18 +115,17 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
   bool is_interrupted = false;
   {
     // Other threads of Python go on.
-    const py::gil_scoped_release released;
+    Unlocked unlocked;
     if (!is_absolute)
       tolerance *= contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
     Budget budget{tolerance, max_iterations, max_seconds, /*keep_history=*/true};
     budget.is_cancelled = [&, asked = Stopwatch()]() mutable {
       if (is_interrupted || !asked.has_passed(0.05)) return is_interrupted;
       asked.restart();
-      const py::gil_scoped_acquire held;
-      return is_interrupted = PyErr_CheckSignals() != 0;
+      return is_interrupted = unlocked.is_interrupted();
     };
     run = SolverRunner().run(*solver, problem, from, budget);
-    words = explained(problem, run, tolerance, max_seconds);
+    if (!is_interrupted) words = explained(problem, run, tolerance, max_seconds);
   }
   if (is_interrupted) throw py::error_already_set();
   py::dict d;
@@ -179,15 +178,29 @@ void answer(const ExternalRequest& request, const std::filesystem::path& file, i
   answer.iterations = iterations;
   answer.own_residual = residual;
   answer.seconds = seconds;
-  if (history.size() % 3 != 0)
-    throw std::invalid_argument("history has " + std::to_string(history.size()) +
-                                " entries, must have three per point");
+  if (history.size() % 3 != 0 || (history.ndim() == 2 && history.shape(1) != 3))
+    throw std::invalid_argument("history: expected three numbers per point, the shape (k, 3)");
   for (const double* point = history.data(); point != history.data() + history.size(); point += 3) {
-    if (!(std::abs(point[0]) <= std::numeric_limits<int>::max()))
+    if (!Vec3(point).allFinite()) continue;
+    if (std::abs(point[0]) > std::numeric_limits<int>::max())
       throw std::invalid_argument("history has an iteration that is no count");
     answer.history.push_back({static_cast<int>(point[0]), point[1], point[2]});
   }
   write_answer(file, request, answer);
+}
+
+/// One line, as the program says it: the bytes of a path in it are what Python makes of them.
+template <class CppError>
+void add_error(py::module_& module, const char* name, PyObject* base) {
+  static const auto* type = new py::exception<CppError>(module, name, base);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const CppError& error) {
+      const auto words = py::reinterpret_steal<py::str>(PyUnicode_DecodeFSDefault(error.what()));
+      PyErr_SetObject(type->ptr(), words.ptr());
+    }
+  });
 }
 
 }  // namespace
@@ -252,13 +265,12 @@ void add_problems(py::module_& module) {
 
 PYBIND11_MODULE(_ballast, module) {
   namespace py = pybind11;
-  // One line each, as the program says it.
-  py::register_exception<ballast::Error>(module, "Error", PyExc_RuntimeError);
-  py::register_exception<ballast::InvalidProblem>(module, "InvalidProblem", PyExc_ValueError);
-  py::register_exception<ballast::UnsupportedProblem>(module, "UnsupportedProblem",
-                                                      PyExc_ValueError);
-  py::register_exception<ballast::UnknownSolver>(module, "UnknownSolver", PyExc_ValueError);
-  py::register_exception<ballast::MissingSolver>(module, "MissingSolver", PyExc_ValueError);
+  using ballast::python::add_error;
+  add_error<ballast::Error>(module, "Error", PyExc_RuntimeError);
+  add_error<ballast::InvalidProblem>(module, "InvalidProblem", PyExc_ValueError);
+  add_error<ballast::UnsupportedProblem>(module, "UnsupportedProblem", PyExc_ValueError);
+  add_error<ballast::UnknownSolver>(module, "UnknownSolver", PyExc_ValueError);
+  add_error<ballast::MissingSolver>(module, "MissingSolver", PyExc_ValueError);
   ballast::python::add_problems(module);
   ballast::python::add_scenes(module);
 }

@@ -16,16 +16,13 @@ namespace {
 class SteppedScene {
  public:
   /// Grains are deposited first, or taken from the packings that are kept in that folder.
-  SteppedScene(const std::string& name, const std::vector<std::string>& overrides,
+  SteppedScene(const std::filesystem::path& name, const std::vector<std::string>& overrides,
                const std::filesystem::path& packings)
       : scene_(read_scene(find_scene(name), overrides)) {
     bool is_interrupted = false;
-    const auto goes_on = [&] {
-      const py::gil_scoped_acquire held;
-      return !(is_interrupted = PyErr_CheckSignals() != 0);
-    };
     {
-      const py::gil_scoped_release released;
+      Unlocked unlocked;
+      const auto goes_on = [&] { return !(is_interrupted = unlocked.is_interrupted()); };
       Manifest manifest(name, overrides, "");
       prepare_run(scene_, {packings, goes_on, StatusLine::Style::quiet}, manifest, run_);
     }
@@ -33,21 +30,24 @@ class SteppedScene {
     stepper_ = std::make_unique<TimeStepper>(run_.system, scene_, run_.system.first_driven_wall());
   }
 
-  /// Steps `count` times; calls back after each, and stops where that returns False.
+  /// Steps `count` times; calls back after each, and stops where that returns what is false.
   py::dict step(long count, const py::object& callback, const py::object& self) {
     if (count < 0) throw std::invalid_argument("count: expected a number >= 0");
     StepRecord record;
     bool goes_on = true;
     for (long k = 0; k < count && goes_on; ++k) {
       {
-        const py::gil_scoped_release released;
+        const Unlocked unlocked;
         const std::lock_guard held(busy_);
+        unsolved_ = "the last step failed: it has no problem and no impulses";
         record = stepper_->step(run_.state, run_.memory);
+        unsolved_ = nullptr;
       }
       if (callback.is_none()) {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       } else {
-        goes_on = !callback(self, as_dict(record)).is(py::bool_(false));
+        const py::object reply = callback(self, as_dict(record));
+        goes_on = reply.is_none() || py::bool_(reply);
       }
     }
     return as_dict(record);
@@ -63,12 +63,12 @@ class SteppedScene {
   double h() const { return scene_.step; }
   FrictionProblem problem() const {
     const std::lock_guard held(busy_);
+    if (unsolved_) throw std::runtime_error(unsolved_);
     return stepper_->problem();
   }
   py::array impulses() const {
     const std::lock_guard held(busy_);
-    if (stepper_->impulses().size() != stepper_->problem().row_count())
-      throw std::runtime_error("the last step failed: it has no impulses");
+    if (unsolved_) throw std::runtime_error(unsolved_);
     return in_threes(three_rows(stepper_->problem(), stepper_->impulses()));
   }
 
@@ -79,6 +79,8 @@ class SteppedScene {
     const std::lock_guard held(busy_);
     for (RigidBody& body : run_.system.bodies) {
       if (body.name != name) continue;
+      if (body.freedom.translations == 0)
+        throw std::invalid_argument(name + ": does not move freely: no force acts on it");
       body.force = {.constant = f};
       // What a driven wall is pushed with, along its normal.
       if (body.is_wall()) body.wall.load = {f.dot(body.wall.normal), f.dot(body.wall.normal)};
@@ -97,6 +99,7 @@ class SteppedScene {
   Scene scene_;
   PreparedRun run_;
   std::unique_ptr<TimeStepper> stepper_;
+  const char* unsolved_ = "no step has been made";  ///< why there is no problem; null: there is one
   mutable std::mutex busy_;  ///< of who steps, without the interpreter's lock, or reads
 };
 
@@ -116,7 +119,7 @@ auto viewed(double* (*first)(MotionState&), py::ssize_t columns, std::size_t str
 void add_scenes(py::module_& module) {
   using py::arg;
   py::class_<SteppedScene>(module, "Scene")
-      .def(py::init<const std::string&, const std::vector<std::string>&,
+      .def(py::init<const std::filesystem::path&, const std::vector<std::string>&,
                     const std::filesystem::path&>())
       .def(
           "step",
@@ -124,8 +127,9 @@ void add_scenes(py::module_& module) {
             return self.cast<SteppedScene&>().step(count, callback, self);
           },
           arg("count") = 1, arg("callback") = py::none(),
-          "Steps so often; the last step's record: a number for each column of a run's record. "
-          "callback(scene, record) comes after each step, and ends the stepping when it is False.")
+          "Steps so often; the last step's record: a number for each column of a run's record, "
+          "zeros where count is 0. callback(scene, record) comes after each step, and ends the "
+          "stepping with what is false, None excepted.")
       .def_property_readonly(
           "positions",
           viewed([](MotionState& s) { return s.pose[0].position.data(); }, 3, sizeof(Pose)),

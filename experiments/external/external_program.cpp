@@ -57,16 +57,20 @@ std::vector<HistoryPoint> read_history(const Hdf5Reader& file) {
   const std::string name = answered + "history";
   std::vector<HistoryPoint> history;
   if (!file.has(name)) return history;
+  const auto shape = file.shape(name);
+  if (shape.size() == 2 && shape[1] != 3)
+    file.fail(printed("%s is %zu x %zu, must be points x 3: iteration, seconds, error",
+                      name.c_str(), std::size_t{shape[0]}, std::size_t{shape[1]}));
   std::size_t entries = 1;
-  for (const auto extent : file.shape(name)) entries *= extent;
+  for (const auto extent : shape) entries *= extent;
   if (entries % 3 != 0 || entries > 3 * most_points)
     file.fail(
         name + " has " + std::to_string(entries) +
         " entries, must have three per point (iteration, seconds, error) of a million at most");
   const std::vector<double> values = file.read<double>(name);
   for (std::size_t k = 0; k + 2 < values.size(); k += 3) {
-    if (!(values[k] >= 0.0 && values[k] < 2e9) || !(values[k + 1] >= 0.0) ||
-        std::isnan(values[k + 2]))
+    if (!Vec3(&values[k]).allFinite()) continue;
+    if (!(values[k] >= 0.0 && values[k] < 2e9) || !(values[k + 1] >= 0.0))
       file.fail(name + ": point " + std::to_string(k / 3) + " is no iteration, time and error");
     history.push_back({static_cast<int>(values[k]), values[k + 1], values[k + 2]});
   }

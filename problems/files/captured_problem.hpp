@@ -27,7 +27,7 @@ struct CapturedProblem {
   double g = 0.0;                                 ///< |gravity| [m/s^2]; 0 without
   int step = 0;                                   ///< of the run, counted from 1
   double time = 0.0;                              ///< end of the step [s]
-  std::string phase;                              ///< of the motion: see experiments/capture.hpp
+  std::string phase;                              ///< of the wall: none, jammed, active, passive
   double wall_x = 0.0, wall_v = 0.0, load = 0.0;  ///< of the driven wall, as in the run's record
 
   std::vector<double> gap;         ///< per contact [m]; negative: overlap

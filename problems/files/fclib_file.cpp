@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 
 #include "problems/algebra/delassus.hpp"
@@ -60,8 +61,17 @@ void copy_block(const SparseColumns& from, int first, int columns, int row_begin
 /// W = H^T M^-1 H and q = H^T M^-1 f + w. By LU: stored iteration matrices need not be quite
 /// symmetric.
 FrictionProblem condense(const GlobalProblem& global) {
+  // Zero times what is not finite is no number.
+  if (!(global.m * Eigen::VectorXd::Zero(global.m.cols()) +
+        global.h * Eigen::VectorXd::Zero(global.h.cols()) + global.f)
+           .allFinite() ||
+      !global.w.allFinite())
+    throw InvalidProblem("M, H, f or w has an entry that is not finite");
+  const SparseColumns transposed = global.m.transpose();
+  const Eigen::SimplicialLLT<SparseColumns> root(global.m + transposed);
   Eigen::SparseLU<SparseColumns> factor(global.m);
-  if (factor.info() != Eigen::Success) throw InvalidProblem("M is singular");
+  if (root.info() != Eigen::Success || factor.info() != Eigen::Success)
+    throw InvalidProblem("M is not positive definite");
   const SparseColumns solved = factor.solve(global.h);
   return local_problem(global.h.transpose() * solved,
                        global.h.transpose() * factor.solve(global.f) + global.w, global.mu);
@@ -115,6 +125,11 @@ FrictionProblem divided(const GlobalProblem& global, const Division& division) {
 }
 
 FrictionProblem to_friction_problem(const GlobalProblem& global) {
+  const auto sizes = {global.m.rows(), global.m.cols(), global.h.rows(), global.f.size()};
+  const Eigen::Index contact_rows = 3 * static_cast<Eigen::Index>(global.mu.size());
+  if (std::ranges::count(sizes, global.f.size()) != 4 || global.h.cols() != contact_rows ||
+      global.w.size() != contact_rows)
+    throw InvalidProblem("the sizes of M, H, f, w and mu do not agree");
   // The first grouping that M and H allow: rigid bodies, or points; where none does, W is formed.
   Division division;
   if (!group<6>(global, division) && !group<3>(global, division)) return condense(global);

@@ -36,7 +36,9 @@ inline Eigen::VectorXd as_eigen(const std::vector<double>& x) {
 
 /// Keeps the dynamics form when the unknowns can be grouped into bodies of six, or of three, so
 /// that M is block diagonal and a contact touches at most two of them; one unknown may be left for
-/// a last body. Forms W otherwise. Throws InvalidProblem when M is not symmetric positive definite.
+/// a last body. Forms W otherwise, of an M that need not be quite symmetric. Throws InvalidProblem:
+/// sizes that do not agree, an M that is not positive definite, entries that are not finite where W
+/// is formed.
 FrictionProblem to_friction_problem(const GlobalProblem& global);
 
 /// How a global problem divides: body b has unknowns dof_begin[b] .. dof_begin[b+1], contact c is

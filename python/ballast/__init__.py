@@ -104,6 +104,8 @@ class Scene(_Scene):
 
     def __init__(self, name: Path, overrides: Sequence[str] = (),
                  packings: Path = "results/packings"):
+        if isinstance(overrides, str):
+            raise TypeError(f"overrides: expected a list of settings, got {overrides!r}")
         super().__init__(os.fspath(name), list(overrides), os.fspath(packings))
 
     @property

@@ -30,7 +30,7 @@ class Captured:
     g: float  #: gravity [m/s^2]
     step: int  #: of the run, counted from 1
     time: float  #: its end [s]
-    phase: str  #: of the motion
+    phase: str  #: of the driven wall: none, jammed, active, passive
     wall_x: float  #: place [m], velocity [m/s] and load [N] of the driven wall
     wall_v: float
     load: float

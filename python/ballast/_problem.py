@@ -19,14 +19,26 @@ def _require_shape(matrix: Any, rows: int, columns: int, name: str) -> None:
                          f"must be {rows} x {columns}")
 
 
-def _checked(matrix: Any, name: str) -> Any:
-    """A compressed matrix whose indices are within it, each entry once."""
+def _compressed(form: type, matrix: Any, name: str) -> Any:
+    """A copy in that form, each entry once. SciPy believes indices: they are checked before."""
     try:
-        matrix.check_format(full_check=True)
+        if hasattr(matrix, "check_format"):
+            matrix = matrix.copy()
+            matrix.check_format(full_check=True)
+        elif sparse.issparse(matrix):
+            matrix = sparse.coo_matrix(matrix)  # which looks at them
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from None
+    matrix = form(matrix)
     matrix.sum_duplicates()
     return matrix
+
+
+def _frictions(mu: Any) -> np.ndarray:
+    mu = np.asarray(mu, dtype=float)
+    if mu.shape not in ((mu.size,), (mu.size, 1)):
+        raise ValueError(f"mu: has the shape {mu.shape}, must have (n,), one for each contact")
+    return mu.ravel()
 
 
 def _require_real(*arrays: Any) -> None:
@@ -45,7 +57,7 @@ class Problem:
         """From W [1/kg], dense or sparse, (3n, 3n), positive semidefinite; q [m/s], (3n) or (n, 3);
         mu, (n). Raises ValueError and InvalidProblem, which names the entry."""
         _require_real(W, q, mu)
-        W = _checked(sparse.csr_matrix(W, copy=True), "W")
+        W, mu = _compressed(sparse.csr_matrix, W, "W"), _frictions(mu)
         _require_shape(W, 3 * len(mu), 3 * len(mu), "W")
         return cls(_ballast.Problem.from_delassus(W, q, mu))
 
@@ -55,8 +67,8 @@ class Problem:
         """From M [kg, kg m^2], (d, d), symmetric positive definite; H, (3n, d), with u = H v + w;
         mu, (n); v_free [m/s, rad/s], (d), or f = M v_free; w [m/s], (3n), zero if left out."""
         _require_real(M, H, mu, v_free, f, w)
-        M = _checked(sparse.csc_matrix(M, copy=True), "M")
-        transposed = _checked(sparse.csr_matrix(H, copy=True), "H").T
+        M, mu = _compressed(sparse.csc_matrix, M, "M"), _frictions(mu)
+        transposed = _compressed(sparse.csr_matrix, H, "H").T
         if (v_free is None) == (f is None):
             raise ValueError("expected one of v_free and f")
         if v_free is not None:

@@ -10,7 +10,7 @@ from typing import Callable, Optional, Sequence, Union
 import numpy as np
 
 from . import _ballast
-from ._problem import Problem
+from ._problem import Problem, _require_real
 
 _statuses = ["solved", "iteration_limit", "time_limit", "stalled", "failed", "unsupported",
              "out_of_memory"]
@@ -43,8 +43,10 @@ def _answer(solver: Callable, problem: str, answer: str) -> None:
     status = reply.get("status", "solved")
     if status not in _statuses:
         raise ValueError("status %r: expected one of %s" % (status, ", ".join(_statuses)))
-    asked.answer(answer, _statuses.index(status), reply.get("impulses"),
-                 int(reply.get("iterations", 0)), float(reply.get("residual", 0.0)), seconds,
+    _require_real(reply.get("impulses"), reply.get("history"))
+    iterations = min(int(reply.get("iterations", 0)), asked.max_iterations)
+    asked.answer(answer, _statuses.index(status), reply.get("impulses"), iterations,
+                 float(reply.get("residual", 0.0)), seconds,
                  np.asarray(reply.get("history", []), dtype=float))
 
 

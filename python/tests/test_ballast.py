@@ -9,6 +9,7 @@ import tempfile
 import threading
 import unittest
 
+import h5py
 import numpy as np
 import scipy.sparse as sparse
 
@@ -111,6 +112,9 @@ class Problems(unittest.TestCase):
             (ValueError, "H: is 3 x 2, must be 3 x 3",
              lambda: bodies(eye, eye[:, :2], [0.5], f=q)),
             (ballast.InvalidProblem, "nan", lambda: bodies(eye, eye * np.nan, [0.5], f=q)),
+            (ValueError, "mu: has the shape (1, 2)", lambda: bodies(eye, eye, [[0.5, 0.5]], f=q)),
+            (ValueError, "mu: has the shape (1, 2)", lambda: make(eye, q, [[0.5, 0.5]])),
+            (ValueError, "mu: has the shape ()", lambda: make(eye, q, 0.5)),
             (ValueError, "expected one of", lambda: bodies(eye, eye, [0.5])),
             (ballast.Error, "no such file", lambda: ballast.Problem.read("nothing.hdf5")),
             (ballast.UnknownSolver, "no solver is called",
@@ -127,12 +131,61 @@ class Problems(unittest.TestCase):
             (ValueError, "max_seconds: expected", lambda: solve(max_seconds=np.nan)),
             (ValueError, "count: expected", lambda: ballast.Scene("sliding_cube").step(-1)),
             (ballast.Error, "no scene of this name", lambda: ballast.Scene("zeno_bal")),
+            (TypeError, "expected a list", lambda: ballast.Scene("zeno_ball", "scene.step=1e-3")),
+            (ValueError, "floor: does not move",
+             lambda: ballast.Scene("sliding_cube").set_force("floor", [1, 0, 0])),
+            (RuntimeError, "no step has been made", lambda: ballast.Scene("sliding_cube").problem),
         ]
         for kind, words, call in cases:
             with self.subTest(words), self.assertRaises(kind) as caught:
                 call()
             self.assertIn(words.lower(), str(caught.exception).lower())
             self.assertNotIn("\n", str(caught.exception))
+
+    def test_masses_that_are_none_are_refused_without_bodies_too(self):
+        M, H = np.full((7, 7), 0.1) + np.eye(7), np.eye(7)[[0, 1, 6]]
+        ballast.Problem.from_bodies(M, H, [[0.5]], f=-np.ones(7))
+        for entry, words in (np.inf, "not finite"), (5.0, "not positive definite"):
+            M[0, 6] = M[6, 0] = entry
+            with self.assertRaisesRegex(ballast.InvalidProblem, words):
+                ballast.Problem.from_bodies(M, H, [0.5], f=-np.ones(7))
+
+    def test_indices_are_checked_before_scipy_believes_them(self):
+        eye, f = np.eye(3), np.ones(3)
+        for form in "csr", "csc", "bsr", "coo", "lil":
+            bad = sparse.csr_matrix(eye).asformat(form)
+            ballast.Problem.from_delassus(bad, f, [0.5])
+            if form == "lil":
+                bad.rows[2] = [10**6]
+            elif form == "coo":
+                bad.row = np.array([0, 1, 10**6], dtype=np.int32)
+            else:
+                bad.indices = np.array([0, 1, 10**6], dtype=np.int32)
+            for make in [lambda: ballast.Problem.from_delassus(bad, f, [0.5]),
+                         lambda: ballast.Problem.from_bodies(bad, eye, [0.5], f=f),
+                         lambda: ballast.Problem.from_bodies(eye, bad, [0.5], f=f)]:
+                with self.subTest(form), self.assertRaisesRegex(ValueError, "[WMH]: .* index"):
+                    make()
+
+    def test_a_path_may_have_any_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            odd = pathlib.Path(folder, os.fsdecode(b"caf\xe9.toml"))
+            with self.assertRaisesRegex(ballast.Error, "caf\udce9.toml: no such"):
+                ballast.Scene(odd)
+            source = pathlib.Path(__file__).resolve().parents[2] / "problems/scenes"
+            shutil.copy(source / "sliding_cube.toml", odd)
+            self.assertIn("cube", ballast.Scene(odd).names)
+
+    def test_python_may_end_while_threads_solve_and_step(self):
+        for work in ["ballast.solve(problem, 'pgs', tolerance=0.0, max_iterations=10**9)",
+                     "ballast.Scene('settled_rest').step(10**9)"]:
+            done = subprocess.run(
+                [sys.executable, "-c", "import ballast, threading, time, numpy\n"
+                 "problem = ballast.Problem.from_delassus(numpy.eye(3), [-1, 0.1, 0.3], [0.5])\n"
+                 f"threading.Thread(target=lambda: {work}, daemon=True).start()\n"
+                 "time.sleep(0.3)"], stderr=subprocess.PIPE, text=True)
+            with self.subTest(work):
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_another_python_is_told_so(self):
         package = pathlib.Path(ballast.__file__).parent
@@ -214,10 +267,14 @@ class Scenes(unittest.TestCase):
         for _ in range(3):
             with self.assertRaises(Exception):
                 scene.step()
+        for part in "problem", "impulses":
+            with self.assertRaisesRegex(RuntimeError, "the last step failed"):
+                getattr(scene, part)
         self.assertTrue(len(scene.names) > 0)
 
     def test_threads_that_step_one_scene_wait_for_each_other(self):
         scene = ballast.Scene("settled_rest")
+        scene.step()
         threads = [threading.Thread(target=scene.step, args=(100,)) for _ in range(2)]
         for thread in threads:
             thread.start()
@@ -225,12 +282,17 @@ class Scenes(unittest.TestCase):
             self.assertTrue(np.all(np.isfinite(scene.impulses)))
         for thread in threads:
             thread.join()
-        self.assertAlmostEqual(scene.time, 200 * scene.h)
+        self.assertAlmostEqual(scene.time, 201 * scene.h)
 
     def test_callback_ends_the_stepping(self):
         scene, times = ballast.Scene("sliding_cube"), []
         scene.step(100, lambda s, record: times.append(s.time) or len(times) < 7)
         self.assertEqual(len(times), 7)
+        scene.step(100, lambda s, record: times.append(s.time))
+        scene.step(100, lambda s, record: times.append(s.time) or np.bool_(len(times) < 110))
+        self.assertEqual(len(times), 110)
+        with self.assertRaisesRegex(ValueError, "truth value"):
+            scene.step(3, lambda s, record: np.ones(2))
         with self.assertRaises(ZeroDivisionError):
             scene.step(3, lambda s, record: 1 / 0)
 
@@ -281,7 +343,7 @@ class Comparisons(unittest.TestCase):
                               % (sys.executable, examples / "own_solver.py"))
             run("compare", "known:contacts=8,bodies=6", "--solvers", "pgs", "--tolerances", "1e-4",
                 "--no-report", "--memory", "0", "--output", folder + "/out", "--external", own,
-                str(listed))
+                "--external", str(listed))
             rows = {row["solver"]: row for row in ballast.rows(folder + "/out")}
             for name in ["own", "served"]:
                 self.assertEqual(rows[name]["verdict"], "solved", rows[name]["note"])
@@ -298,6 +360,24 @@ class Comparisons(unittest.TestCase):
                 ballast.serve(lambda request: request.start, [folder + "/p.hdf5", folder + "/a"])
             with self.assertRaisesRegex(SystemExit, "expected PROBLEM ANSWER"):
                 ballast.serve(lambda request: request.start, ["--surve"])
+            request, answer = folder + "/p.hdf5", folder + "/answer.hdf5"
+            with h5py.File(request, "a") as file:
+                for name, value in [("protocol", 1), ("id", 3), ("tolerance", 1e-6),
+                                    ("fclib_tolerance", 0.0), ("max_iterations", 77),
+                                    ("max_seconds", 1.0), ("start", np.zeros(12))]:
+                    file["ballast_request/" + name] = np.atleast_1d(value)
+
+            def serve(**parts):
+                ballast.serve(lambda asked: {"impulses": asked.start, **parts}, [request, answer])
+
+            with self.assertRaisesRegex(ValueError, "complex"):
+                serve(impulses=np.ones((4, 3)) * 1j)
+            with self.assertRaisesRegex(ValueError, "three numbers per point"):
+                serve(history=np.zeros((3, 4)))
+            serve(iterations=10**12, history=[[0, 0.0, np.nan], [1, 0.5, 1e-3]])
+            written = [ballast._ballast.dataset(answer, "/ballast_answer/" + name).ravel().tolist()
+                       for name in ("iterations", "history")]
+            self.assertEqual(written, [[77.0], [1.0, 0.5, 1e-3]])
 
 
 class Examples(unittest.TestCase):

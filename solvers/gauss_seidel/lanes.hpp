@@ -6,6 +6,8 @@
 // compiler's own vectors, for SSE2 and any other processor; those of 32 need AVX2, those of 64
 // AVX-512.
 
+#include <utility>
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif

@@ -210,12 +210,15 @@ TEST_CASE("Optional numbers that say nothing cost no answer") {
   Asked a;
   a.answer.own_residual = a.answer.seconds = std::nan("");
   a.answer.iterations = std::numeric_limits<int>::max();
+  a.answer.history.insert(a.answer.history.begin(), {{0, 0.0, std::nan("")}, {1, HUGE_VAL, 1.0}});
   write_answer(a.file, a.request, a.answer);
   const ExternalAnswer read = read_answer(a.file, a.request);
   CHECK(read.impulses == a.answer.impulses);
   CHECK(read.own_residual == 0.0);
   CHECK(read.seconds == -1.0);
   CHECK(read.iterations == 77);
+  REQUIRE(read.history.size() == 2);
+  CHECK(read.history[0].error == 1.0);
 }
 
 TEST_CASE("What is no answer is refused with the reason") {
@@ -252,6 +255,17 @@ TEST_CASE("What is no answer is refused with the reason") {
     a.answer.impulses.setZero(other.problem.row_count());
     write_answer(a.file, other, a.answer);
     CHECK_THAT(a.refusal(), Contains("12 entries, must have 36"));
+  }
+  SECTION("a history that lies on its side") {
+    Hdf5Writer file(a.file, Hdf5Storage::plain);
+    file.add_group("/ballast_answer");
+    file.add("/ballast_answer/protocol", std::vector<int>{1});
+    file.add("/ballast_answer/id", std::vector<int>{5});
+    file.add("/ballast_answer/status", std::vector<int>{0});
+    file.add("/ballast_answer/r", std::vector<double>(36));
+    file.add("/ballast_answer/history", std::vector<double>(6), {3, 2});
+    file.commit();
+    CHECK_THAT(a.refusal(), Contains("history is 3 x 2, must be points x 3"));
   }
   SECTION("half a file") {
     write_answer(a.file, a.request, a.answer);

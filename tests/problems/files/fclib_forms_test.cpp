@@ -2,6 +2,8 @@
 
 #include "problems/files/fclib_file.hpp"
 
+#include <limits>
+
 #include "platform/random.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "tests/catch.hpp"
@@ -107,6 +109,7 @@ TEST_CASE("stored zeros touch no body and couple none") {
 
 TEST_CASE(
     "a mass that is none, not symmetric or not definite is refused, with bodies and without") {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   struct Wrong {
     int unknowns, touched;
     std::vector<Eigen::Triplet<double>> entries;
@@ -114,15 +117,44 @@ TEST_CASE(
   };
   const Wrong wrongs[] = {
       {6, 0, {{0, 0, -1.0}}, "M(0, 0) = -1"},
-      {8, 0, {{3, 3, 0.0}}, "M is singular"},
+      {8, 0, {{3, 3, 0.0}}, "M is not positive definite"},
       // A body's block: the lower triangle alone would be taken for the whole.
       {6, 0, {{0, 1, 0.5}}, "dynamics.mass[6] = "},
       {6, 0, {{0, 1, 2.0}, {1, 0, 2.0}}, "not positive definite"},  // eigenvalues -1 and 3
-      // Eight unknowns are no bodies: W shows it.
-      {8, 3, {{3, 3, -1.0}}, "delassus.w(0, 0) = -16 is negative"}};
+      // Eight unknowns are no bodies. What no contact touches cannot be seen in W.
+      {8, 3, {{3, 3, -1.0}}, "M is not positive definite"},
+      {8, 0, {{3, 3, -1.0}}, "M is not positive definite"},
+      {8, 0, {{0, 7, 2.0}, {7, 0, 2.0}}, "M is not positive definite"},
+      {8, 0, {{3, 3, infinite}}, "not finite"},
+      {6, 0, {{3, 3, infinite}}, "is not"}};
   for (const auto& [unknowns, touched, entries, says] : wrongs) {
     GlobalProblem global = unit_masses(unknowns, {{touched}});
     for (const auto& entry : entries) global.m.coeffRef(entry.row(), entry.col()) = entry.value();
     CHECK_THROWS_WITH(to_friction_problem(global).validate(), Catch::Contains(says));
   }
+}
+
+TEST_CASE("what is not finite is refused where W is formed, though no contact sees it") {
+  GlobalProblem global = unit_masses(8, {{0}});
+  to_friction_problem(global);
+  SECTION("H") { global.h.coeffRef(0, 1) = -std::numeric_limits<double>::infinity(); }
+  SECTION("f") { global.f[5] = std::nan(""); }
+  SECTION("w") { global.w[2] = std::numeric_limits<double>::infinity(); }
+  CHECK_THROWS_WITH(to_friction_problem(global), Catch::Contains("not finite"));
+}
+
+TEST_CASE("an M that is not quite symmetric is taken as it is where W is formed") {
+  GlobalProblem global = unit_masses(8, {{0}, {7}});
+  global.m.coeffRef(0, 7) = 0.25;
+  check_same_law(global, to_friction_problem(global));
+}
+
+TEST_CASE("sizes that do not agree are refused") {
+  GlobalProblem global = unit_masses(6, {{0}});
+  SECTION("M") { global.m.conservativeResize(6, 5); }
+  SECTION("H") { global.h.conservativeResize(5, 3); }
+  SECTION("f") { global.f.conservativeResize(5); }
+  SECTION("w") { global.w.conservativeResize(2); }
+  SECTION("mu") { global.mu.assign(2, 0.5); }
+  CHECK_THROWS_WITH(to_friction_problem(global), Catch::Contains("do not agree"));
 }
