@@ -112,7 +112,7 @@ Command step_command() {
   return measuring("step", "Whole steps by phase, from the deposited packing driven", request,
                    bench_step,
                    {{"--steps", &request->steps, "Steps", between(1, most_count)},
-                    {"--threads", &request->threads, "Threads of the solver, separated by commas",
+                    {"--threads", &request->threads, "Threads of a step, separated by commas",
                      between(1, 256)}});
 }
 
@@ -126,8 +126,7 @@ Command scaling_command() {
       bench_scaling,
       {{"--grains", &scaling.grains,
         "Grains, separated by commas: each the nearest number of tiles", between(1, most_grains)},
-       {"--threads", &scaling.threads, "Threads of the solver, separated by commas",
-        between(1, 256)},
+       {"--threads", &scaling.threads, "Threads of a step, separated by commas", between(1, 256)},
        {"--steps", &scaling.steps, "Measured steps", between(1, most_count)},
        {"--warm-up", &scaling.warm_up, "Steps before them", between(1, most_count)}});
 }

@@ -131,7 +131,7 @@ ExitCode diff(const DiffOptions& options) {
 Command compare_diff_command() {
   const auto options = std::make_shared<DiffOptions>();
   return {"diff",
-          "Two comparisons of the same cases: what is faster, slower, lost; exit code 1 if any is",
+          "Two comparisons of the same cases: what is faster; slower or lost, with exit code 1",
           {{"before", &options->before, "Folder of a comparison", required},
            {"after", &options->after, "Folder of another one, of the same machine", required},
            {"--least", &options->least,
@@ -317,7 +317,7 @@ Command compare_command() {
   Command command{
       "compare",
       "Backends on identical problems: accuracy against cost, figures, a page",
-      {{"cases", &options->cases, "Problem files, folders, patterns, known:..., stress:..."},
+      {{"cases", &options->cases, "Files, folders, patterns, known:..., pile:..., stress:..."},
        {"--solvers", into(comparison.solvers, parse_solvers, "all"),
         "Names, separated by commas, or all, or none: programs alone"},
        {"--external NAME=COMMAND", &options->external,

@@ -1,4 +1,4 @@
-// The ballast program: subcommands only, no physics. See commands/.
+// The ballast program: subcommands only, no physics. See command.hpp.
 
 #include <iostream>
 

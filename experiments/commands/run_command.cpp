@@ -268,9 +268,9 @@ Command run_command() {
         "Where deposited packings are kept (<output>/../packings)"},
        {"--capture WHICH", into(run.capture, CaptureSettings::parse),
         "Keeps the friction problems of steps as FCLIB files in <output>/capture: every=50 (two "
-        "consecutive ones each; steps=3: three), from=1000,to=1020"},
+        "consecutive ones each; steps=3: three), from=1000,to=1020; also=10: that one too"},
        {"--threads N", &run.threads,
-        "Threads of the solver, at most the cores; the results are the same to the last bit",
+        "Threads of a step, at most the cores; the results are the same to the last bit",
         between(1, 256)},
        {"--max-seconds S", &run.max_seconds,
         "Wall clock after which to write a checkpoint and exit with 3", above(0)},

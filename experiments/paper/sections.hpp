@@ -211,7 +211,7 @@ std::string article_of(const std::vector<PaperSection>& sections);
 /// article.html and article.pdf. Says on `notes` what is missing for them. Throws Error.
 ExitCode write_article(PaperData& data, const std::filesystem::path& folder, std::ostream& notes);
 
-/// The campaign as a dataset that can be cited: rows, plan, scenes, packings, a reader in Python.
+/// The campaign as a dataset that can be cited: rows, plan, scenes, packings' checksums, a reader.
 struct ArchiveOrder {
   std::filesystem::path plan = {};  ///< the campaign's; empty: campaign.toml
   std::filesystem::path packings;   ///< where packings are kept: checksums of those that are there

@@ -1,6 +1,6 @@
 #pragma once
 // Friction problems taken out of a run, as files that FCLIB's tools and `ballast compare` read
-// (problems/captured_problem).
+// (problems/files/captured_problem).
 //
 // Consecutive steps are taken together: only so is a warm start what a run would have had.
 
@@ -26,8 +26,8 @@ struct CaptureSettings {
   bool takes(long step) const;
 };
 
-/// Writes what it is asked to into `folder`, created when the first file is: step_0000050.hdf5, ...
-/// The steps themselves are only looked at: a run has the same bits with and without.
+/// Writes step_0000050.hdf5, ... into `folder`, made with the first; `h` [s], `g` [m/s^2]: the
+/// run's. Steps are only looked at: a run has the same bits with and without.
 class StepCapture {
  public:
   StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g);

@@ -31,7 +31,7 @@ struct RunOptions {
   /// Only see to it that the packing is in the cache; the folder is not touched.
   bool deposit_only = false;
   CaptureSettings capture;  ///< steps to keep as problem files
-  int threads = 1;          ///< of the solver; the results are the same whatever their number
+  int threads = 1;          ///< of a step; the results are the same whatever their number
   /// The command that goes on with this run, for a shell in any folder; empty: none is told.
   std::string again;
   double max_seconds = 1e30;  ///< wall clock: checkpoint and exit code 3 after this
@@ -51,7 +51,7 @@ struct RunEnd {
 /// MissingSolver, Error: each with a one-line what().
 ///
 /// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5,
-/// checkpoint.bin, capture/ (if asked for), log/ (append-only raw rows from which the two records
+/// checkpoint.bin, capture/ and states/ (if asked for), log/ (raw rows from which the two records
 /// are made). Its page is write_report()'s (experiments/run_page).
 RunEnd run(const RunOptions& options);
 

@@ -50,7 +50,7 @@ struct WallSpec {
 struct ForceSpec {
   Vec3 constant = Vec3::Zero();
   Vec3 amplitude = Vec3::Zero();
-  double frequency = 0.0, phase = 0.0;
+  double frequency = 0.0, phase = 0.0;  ///< nu [Hz]; [rad]
   Vec3 at(double t) const {
     return constant + amplitude * std::cos(2.0 * std::numbers::pi * frequency * t + phase);
   }
@@ -177,10 +177,10 @@ struct ControlVolumeSpec {
 
 struct Scene {
   std::string name, title;
-  double step = 2e-4;     ///< h [s]
-  double duration = 1.0;  ///< of the driven (or only) phase [s]
-  Vec3 gravity = Vec3(0, 0, -9.81);
-  double friction = 0.4;  ///< between bodies
+  double step = 2e-4;                ///< h [s]
+  double duration = 1.0;             ///< of the driven (or only) phase [s]
+  Vec3 gravity = Vec3(0, 0, -9.81);  ///< world frame [m/s^2]
+  double friction = 0.4;             ///< between bodies
   double restitution = 0.0;
   Period period;  ///< of the world; zero: it does not repeat itself
   std::vector<std::string> materials;

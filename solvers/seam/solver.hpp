@@ -26,7 +26,7 @@ enum class Verdict {
   solved,         ///< the solver says so and the judge agrees on every part of the law
   unsolved,       ///< stopped before: standing still, a limit, a failure
   denied,         ///< the solver says that it is solved, and the judge does not agree
-  no_solution,    ///< none found: r grows without bound, or contacts that nothing can move sink in
+  no_solution,    ///< r grows without bound, or it is proved that no impulses are a solution
   timeout,        ///< over the time limit of a comparison, by itself or killed
   crashed,        ///< the process that solved died
   out_of_memory,  ///< allocation refused under the memory limit
