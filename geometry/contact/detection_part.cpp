@@ -235,9 +235,9 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
 }
 
 /// A fixed body's side is no obstacle where the motion until the next detection leads past it: then
-/// a facet that separates the bodies now separates them best there too, and so all the way. It
-/// stands for the pair where one lies over the other; elsewhere there is nothing yet to meet.
-/// False: the pair's own axis stands, as where the motion leads through the fixed body.
+/// another facet separates the bodies best there. If it does so now too, it stands for the pair
+/// where one lies over the other; elsewhere there is nothing yet to meet. If it does not yet, it
+/// must do so in time, or the way leads through the fixed body. False: the pair's own axis stands.
 bool DetectionPart::passes(const CandidatePair& candidate, ManifoldLimits& limits,
                            SeparatingAxis& axis, std::vector<ContactPoint>& contacts) {
   if (limits.joint < 0.0 || bodies_.ahead.empty() || axis.separation < -limits.joint) return false;
@@ -260,7 +260,10 @@ bool DetectionPart::passes(const CandidatePair& candidate, ManifoldLimits& limit
   const double separation =
       instead ? instead->separation
               : separation_along(bodies_.ahead[a].rotation * contact_normal(then, last), a, b);
-  if (separation < -limits.joint) return false;
+  if (separation < -limits.joint)  // in time: before the pair's own facet closes
+    return closing && last.separation >= -limits.joint &&
+           -(separation + limits.joint) * (axis.separation - closing->separation) <=
+               (axis.separation + limits.joint) * (last.separation - separation);
   if (!instead) return last.separation >= -limits.joint;  // no facet yet
   axis = *instead;
   limits.is_passing = true;

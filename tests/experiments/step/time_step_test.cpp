@@ -156,6 +156,29 @@ TEST_CASE("no step is long enough to fly through a thin fixed plate") {
     }
 }
 
+TEST_CASE("a cube that passes the corner of a fixed one in time does not feel it") {
+  const Vec3 velocity(0.45, 0.34, 0);
+  for (const bool is_in_time : {true, false})
+    for (int phase = 0; phase < 8; ++phase) {
+      Scene scene = empty_scene();
+      scene.gravity.setZero();
+      scene.bodies = {cube("passes", 0.1, 1.0, Vec3(-0.1503, 0, 0)), cube("corner", 0.2, 1.0, {})};
+      BodySpec& passes = scene.bodies[0];
+      passes.pose.position.y() = is_in_time ? 0.1499 : 0.1496;  // out after 0.3 or 1.2 ms, at 0.67
+      passes.pose.position -= 0.25 * phase * scene.step * velocity;
+      passes.velocity = velocity;
+      scene.bodies[1].free = {false, false, false};
+      scene.bodies[1].free_rotation = false;
+      MotionState state;
+      const MechanicalSystem system = make_system(scene, state);
+      TimeStepper stepper(system, scene, -1);
+      StepMemory memory;
+      while (state.step < 8) stepper.step(state, memory);
+      INFO("phase " << phase);
+      CHECK(((state.velocity[0] - velocity).norm() < 1e-9) == is_in_time);
+    }
+}
+
 TEST_CASE("a cube whose rim meets the edge of a fixed table turns as over a heavy free one") {
   const auto end_of = [](bool is_fixed) {
     Scene scene = empty_scene();
