@@ -68,7 +68,7 @@ inline KnownSolution known(int bodies, int contacts, double friction, double mas
                               .seed = seed});
 }
 
-inline const Budget patient{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 20.0};
+inline const Budget patient{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 120.0};
 inline const Budget hurried{.tolerance = 1e-8, .max_iterations = 2000, .max_seconds = 0.5};
 
 /// Frictionless problems are the same under every law.

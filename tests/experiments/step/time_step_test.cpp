@@ -162,7 +162,8 @@ TEST_CASE("a cube that passes the corner of a fixed one in time does not feel it
     for (int phase = 0; phase < 8; ++phase) {
       Scene scene = empty_scene();
       scene.gravity.setZero();
-      scene.bodies = {cube("passes", 0.1, 1.0, Vec3(-0.1503, 0, 0)), cube("corner", 0.2, 1.0, {})};
+      scene.bodies = {cube("passes", 0.1, 1.0, Vec3(-0.1503, 0, 0)),
+                      cube("corner", 0.2, 1.0, Vec3::Zero())};
       BodySpec& passes = scene.bodies[0];
       passes.pose.position.y() = is_in_time ? 0.1499 : 0.1496;  // out after 0.3 or 1.2 ms, at 0.67
       passes.pose.position -= 0.25 * phase * scene.step * velocity;
