@@ -246,13 +246,20 @@ TEST_CASE("the shadow is drawn anew where bodies, the cut or glass have changed,
   CHECK(picture(browser) == first);
 }
 
+namespace {
+
+ViewData one_tetrahedron(const TemporaryFolder& folder) {
+  return view_of_mesh(folder.write("t.obj",
+                                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                   "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+}
+
+}  // namespace
+
 TEST_CASE("a body whose number needs more than 16 bits is seen where it is") {
   if (Browser::is_missing()) return;
   const TemporaryFolder folder;
-  const fs::path mesh = folder.write("t.obj",
-                                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                     "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-  ViewData view = view_of_mesh(mesh);
+  ViewData view = one_tetrahedron(folder);
   constexpr int count = 150000;  // more also than a call takes arguments
   MechanicalSystem& system = view.system;
   system.bodies.assign(count, RigidBody(system.bodies[0]));
@@ -275,10 +282,7 @@ TEST_CASE("a body whose number needs more than 16 bits is seen where it is") {
 TEST_CASE("a body goes on where the world begins anew, and its way counts from the start") {
   if (Browser::is_missing()) return;
   const TemporaryFolder folder;
-  const fs::path mesh = folder.write("t.obj",
-                                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                     "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-  ViewData view = view_of_mesh(mesh);
+  ViewData view = one_tetrahedron(folder);
   view.system.period.vector = Vec3(8.0, 6.0, 0.0);
   view.system.bodies.resize(2, RigidBody(view.system.bodies[0]));
   view.system.grain_count = 2;
