@@ -26,11 +26,18 @@ install_packages() {
   missing=$(missing_packages "$@")
   [ -z "$missing" ] && return
   [ "$(id -u)" = 0 ] || as_root=(sudo)
-  say "installing:" $missing
-  "${as_root[@]}" apt-get update -qq || die "apt-get update failed"
+  missing=$(echo $missing)
+  say "installing: $missing"
+  # Waits for another apt-get, and for one that a killed script has left.
+  as_root+=(env DEBIAN_FRONTEND=noninteractive)
+  local apt=("${as_root[@]}" apt-get -qq -o DPkg::Lock::Timeout=600)
+  "${apt[@]}" update || die "apt-get update failed"
   # shellcheck disable=SC2086
-  DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends \
-    $missing >/dev/null || die "could not install: $missing"
+  set -- install -y --fix-broken --no-remove --no-install-recommends $missing
+  # What an interrupted installation has left half done is brought to its end first.
+  "${apt[@]}" "$@" >/dev/null ||
+    { "${as_root[@]}" dpkg --configure -a >/dev/null && "${apt[@]}" "$@" >/dev/null; } ||
+    die "could not install: $missing"
 }
 
 # show_progress LOG: copies the build's output into LOG and says how far it is, on a terminal on one
