@@ -22,7 +22,7 @@ for scene in zeno_ball drum; do  # drum has a mesh
 done
 
 # A project outside the tree.
-cmake -S "$root/examples/library" -B example -DCMAKE_PREFIX_PATH="$folder/moved" \
+cmake -G Ninja -S "$root/examples/library" -B example -DCMAKE_PREFIX_PATH="$folder/moved" \
   -DCMAKE_BUILD_TYPE=Release >log 2>&1 || { cat log; fail "find_package(Ballast)"; }
 cmake --build example >log 2>&1 || { cat log; fail "the example does not build"; }
 example/solve_two_boxes >said || fail "the example does not solve: $(cat said)"

@@ -94,8 +94,8 @@ if __name__ == "__main__":
     random, worst, count = np.random.default_rng(1), 0.0, 0
     for path in sorted(pathlib.Path(sys.argv[1]).rglob("*.hdf5")):
         with h5py.File(path) as file:
-            if "fclib_global" not in file:
-                continue
+            if "fclib_global" not in file or len(file["fclib_global/vectors/w"]) == 0:
+                continue  # of another form, or without contacts
             if "ballast/solution" in file:
                 found = file["ballast/solution"][:]
             else:
