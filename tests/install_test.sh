@@ -78,7 +78,8 @@ ldconfig -r "$clean"
 there=(env -u TSAN_OPTIONS unshare -rmpf --mount-proc="$clean/proc")
 "${there[@]}" true 2>log || { echo "packaged: not run, no namespaces here: $(cat log)"; exit; }
 "${there[@]}" chroot "$clean" /usr/bin/ballast run zeno_ball --output /tmp/run --no-report \
-  --set scene.duration=0.01 >log 2>&1 || { cat log; fail "the package does not run in a clean root"; }
+  --set scene.duration=0.01 >log 2>&1 ||
+  { cat log; fail "the package does not run in a clean root"; }
 # It can fail: without one of them it does not start.
 rm "$clean"/usr/lib/*-linux-gnu/libqhull_r.so.*
 "${there[@]}" chroot "$clean" /usr/bin/ballast --help >log 2>&1 && fail "the root is not clean"
