@@ -34,9 +34,9 @@ install_packages() {
   "${apt[@]}" update || die "apt-get update failed"
   # shellcheck disable=SC2086
   set -- install -y --fix-broken --no-remove --no-install-recommends $missing
-  # What an interrupted installation has left half done is brought to its end first.
-  "${apt[@]}" "$@" >/dev/null ||
-    { "${as_root[@]}" dpkg --configure -a >/dev/null && "${apt[@]}" "$@" >/dev/null; } ||
+  "${apt[@]}" "$@" >/dev/null && return
+  say "once more, after what an interrupted installation may have left half done"
+  "${as_root[@]}" dpkg --configure -a >/dev/null && "${apt[@]}" "$@" >/dev/null ||
     die "could not install: $missing"
 }
 
