@@ -42,8 +42,8 @@ std::unique_ptr<Solver> make_nncg();
 
 /// For Budget::gives_up of sweeps, of which `step` cost as much as a Newton step: where two looks
 /// in a row promise that the rest of the way to budget.aim() costs more than the dozen steps that
-/// mostly bring Newton home. Not before 8 steps' worth, 500 or `at_most` sweeps, whichever is
-/// least. `budget` outlives it.
+/// mostly bring Newton home. Sweeps get 8 steps' worth before that, or `at_most`, whichever is
+/// less; but no more than 500 where the error is far from the aim. `budget` outlives it.
 class SlowSweeps {
  public:
   SlowSweeps(double step, double at_most, const Budget& budget);
@@ -52,8 +52,10 @@ class SlowSweeps {
  private:
   double left(int sweeps, double error);
 
+  static constexpr double near = 30.0;  ///< times budget.aim()
+
   const Budget& budget_;
-  int least_, refusals_ = 0;
+  int least_near_, least_far_, refusals_ = 0;
   double most_;
   std::vector<std::pair<int, double>> looks_;  ///< sweeps, error
 };

@@ -290,13 +290,14 @@ double sweeps_of_step(int contacts) { return 1.3 * std::sqrt(contacts * std::sqr
 
 SlowSweeps::SlowSweeps(double step, double at_most, const Budget& budget)
     : budget_(budget),
-      least_(static_cast<int>(std::min({500.0, 8.0 * step, at_most}))),
+      least_near_(static_cast<int>(std::min(8.0 * step, at_most))),
+      least_far_(std::min(500, least_near_)),
       most_(12.0 * step) {}
 
 bool SlowSweeps::operator()(int sweeps, double error) {
   // One look may have met the error on its way up.
   refusals_ = left(sweeps, error) > most_ ? refusals_ + 1 : 0;
-  return sweeps >= least_ && refusals_ > 1;
+  return refusals_ > 1 && sweeps >= (error < near * budget_.aim() ? least_near_ : least_far_);
 }
 
 /// How many more sweeps it takes from this error to the aim. Errors fall about like a power of the

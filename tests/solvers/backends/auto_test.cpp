@@ -100,6 +100,20 @@ TEST_CASE("work is counted, not clocked: the same bits every time", "[factors]")
   CHECK(first.solved.impulses == second.solved.impulses);
 }
 
+TEST_CASE("sweeps that stand still get the time of eight Newton steps near the aim alone") {
+  constexpr double step = 1000.0, all = 1e9;
+  const Budget budget{.tolerance = 1e-6};
+  const auto ends_at = [&](double error, double at_most) {
+    SlowSweeps slow(step, at_most, budget);
+    int sweeps = 100;
+    while (!slow(sweeps, error)) sweeps += 100;
+    return sweeps;
+  };
+  CHECK(ends_at(1e-3, all) == 500);
+  CHECK(ends_at(1e-5, all) == 8000);
+  CHECK(ends_at(1e-5, 600.0) == 600);
+}
+
 TEST_CASE("what nothing can reach ends as stalled", "[factors]") {
   const SolverRun run =
       judged_by(make_auto(), heavy_pile(2, true),
