@@ -134,9 +134,10 @@ double value_of(const std::string& expression, const StageNumbers& numbers) {
   return quantile(values->second, 0.5);
 }
 
-std::map<std::string, double> comparison_numbers(std::span<const CompareRow> rows) {
-  constexpr double shift = 1e-5;
-  std::map<std::string, double> numbers;
+/// `beside` names the mean over cases of a solver's time over the fastest other's, both `shift` [s]
+/// longer.
+void add_comparison(std::span<const CompareRow> rows, double shift, const char* beside,
+                    std::map<std::string, double>& numbers) {
   const double unsolved = std::log(limit_of(rows) + shift) - 1e-12;
   for (const TriedCases& tried : tried_cases(rows, shift)) {
     const Eigen::MatrixXd& times = tried.log_seconds;
@@ -151,11 +152,9 @@ std::map<std::string, double> comparison_numbers(std::span<const CompareRow> row
       if (times.cols() == 1) continue;
       Eigen::MatrixXd others = times;
       others.col(s).setConstant(HUGE_VAL);
-      numbers[name + "beside the others"] =
-          std::exp((times.col(s) - others.rowwise().minCoeff()).mean());
+      numbers[name + beside] = std::exp((times.col(s) - others.rowwise().minCoeff()).mean());
     }
   }
-  return numbers;
 }
 
 constexpr const char* other_program = "milliseconds.txt";
@@ -172,8 +171,8 @@ void run_beside(const std::string& command, const fs::path& folder) {
 /// What the folder of a stage holds, by name: medians of a bench's measurements ("1 thread,
 /// all/step"), numbers of a run's summary ("drive_seconds"), and of a comparison "auto to 0.0001,
 /// solved" [%], "auto to 0.0001, cases solved" and "auto to 0.0001, beside the others", the
-/// geometric mean over cases of its time over the fastest other backend's, both 10 us longer; from
-/// warm starts "auto warm to 0.0001, solved" and so on. Throws Error.
+/// geometric mean over cases of its time over the fastest other backend's, both 10 us longer, or
+/// "as measured"; from warm starts "auto warm to 0.0001, solved" and so on. Throws Error.
 std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path& folder) {
   std::map<std::string, double> numbers;
   if (stage.words.empty()) {
@@ -189,7 +188,9 @@ std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path
   } else if (stage.words[0] == "run") {
     numbers = Manifest::read(folder / "manifest.json").summary_numbers();
   } else if (stage.words.size() > 1 && stage.words[1] != "collect" && stage.words[1] != "--live") {
-    numbers = comparison_numbers(read_comparison(folder).rows);
+    const std::vector<CompareRow> rows = read_comparison(folder).rows;
+    add_comparison(rows, 1e-5, "beside the others", numbers);
+    add_comparison(rows, 0.0, "beside the others, as measured", numbers);
   }
   return numbers;
 }
@@ -249,8 +250,8 @@ std::map<std::string, std::string> page_numbers(const BenchPage& page,
     if (is_known) return "";
     const double value = value_of(words, numbers);
     if (!std::isnan(value))
-      result[words] = shown(
-          value, words.find(" over ") != std::string::npos || words.ends_with("beside the others"));
+      result[words] = shown(value, words.find(" over ") != std::string::npos ||
+                                       words.find("beside the others") != std::string::npos);
     return "";
   });
   return result;
