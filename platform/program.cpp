@@ -78,10 +78,15 @@ void answer_into(int file, const std::function<std::string()>& work) {
 
 bool is_expendable_process() { return expendable; }
 
-ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work) {
+ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work,
+                         const std::function<bool()>& is_cancelled) {
   const MemoryFile file;
   ChildProcess child([&] { answer_into(file.number, work); });
-  if (!child.ends_within(max_seconds)) return {ChildEnd::out_of_time, ""};  // and is killed
+  const Stopwatch watch;
+  const double pause = is_cancelled ? 0.05 : max_seconds;
+  while (!child.ends_within(std::min(pause, max_seconds - watch.seconds())))
+    if (watch.has_passed(max_seconds) || (is_cancelled && is_cancelled()))
+      return {ChildEnd::out_of_time, ""};  // and is killed
   std::string answer = file.text();
   if (!answer.ends_with(whole_answer)) return {ChildEnd::crashed, ""};
   answer.resize(answer.size() - whole_answer.size());

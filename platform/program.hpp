@@ -22,8 +22,10 @@ struct ChildResult {
 /// Runs `work` in a forked child and waits for the bytes that it returns (platform/pack.hpp makes
 /// and reads them), at most `max_seconds` of wall clock; then the child is killed. Only an answer
 /// that arrived whole counts, whatever the exit code says (Debian's Ipopt can die with code 0). The
-/// child prints nowhere and lets no exception out. Throws Error when no process can be made.
-ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work);
+/// child prints nowhere and lets no exception out. `is_cancelled`, if not empty, is asked here
+/// twenty times a second: true ends the time. Throws Error when no process can be made.
+ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work,
+                         const std::function<bool()>& is_cancelled = {});
 
 /// This process was made by run_in_child(): what crashes, hangs or leaks here harms nobody, and
 /// needs no further child.

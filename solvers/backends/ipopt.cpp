@@ -217,9 +217,10 @@ class IpoptCone final : public Solver {
     constexpr int patience = 12;
     return cones_.solve(problem, std::move(start), budget, patience,
                         [this](const ConeRequest& request, RoundAnswer& answer) {
-                          answer_apart(
-                              request.left.max_seconds,
-                              [&](RoundAnswer& called) { return call(request, called); }, answer);
+                          const auto run = [&](RoundAnswer& called) {
+                            return call(request, called);
+                          };
+                          answer_apart(request.left, run, answer);
                         });
   }
 

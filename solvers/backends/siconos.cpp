@@ -153,7 +153,7 @@ class Siconos final : public Solver {
             call(request, tolerance, limit, called);
             return true;
           };
-          const bool whole = answer_apart(request.left.max_seconds, run, answer);
+          const bool whole = answer_apart(request.left, run, answer);
           answer.finished = !whole || answer.iterations < limit;
           // What dense steps have not brought home goes on by columns.
           if (is_dense_ && limit == recipe_.most_dense_iterations)

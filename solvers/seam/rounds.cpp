@@ -42,20 +42,21 @@ void MovingContacts::take(const FrictionProblem& problem) {
   w = chosen(delassus_matrix(problem), row);
 }
 
-bool answer_apart(double max_seconds, const std::function<bool(RoundAnswer&)>& call,
+bool answer_apart(const Budget& left, const std::function<bool(RoundAnswer&)>& call,
                   RoundAnswer& answer) {
   if (is_expendable_process()) return call(answer);
   const auto carry = [](auto& carrier, auto& carried) {
     carrier.list(carried.x);
     carrier.numbers(carried.iterations, carried.seconds);
   };
-  const ChildResult child = run_in_child(max_seconds, [&] {
+  const auto work = [&] {
     RoundAnswer there;
     if (!call(there)) return std::string();
     Packer packer;
     carry(packer, there);
     return packer.bytes();
-  });
+  };
+  const ChildResult child = run_in_child(left.max_seconds, work, left.is_cancelled);
   if (child.answer.empty()) return false;
   Unpacker unpacker(child.answer, "a child's answer");
   carry(unpacker, answer);

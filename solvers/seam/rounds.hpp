@@ -55,8 +55,9 @@ struct RoundAnswer {
 
 /// `call` in a child process (platform/program.hpp), as it may crash, hang or leak; here
 /// where this process is a comparison's child, which may be lost and stays warm. Of the answer x,
-/// iterations and seconds come back. False: there is none.
-bool answer_apart(double max_seconds, const std::function<bool(RoundAnswer&)>& call,
+/// iterations and seconds come back. False: there is none within what is `left`, or the solve was
+/// cancelled.
+bool answer_apart(const Budget& left, const std::function<bool(RoundAnswer&)>& call,
                   RoundAnswer& answer);
 
 /// Rounds until the judge's error of the best iterate, which is what is returned, meets the budget;

@@ -93,6 +93,22 @@ TEST_CASE("a child that takes too long is killed") {
   CHECK(watch.seconds() < 5.0);
 }
 
+TEST_CASE("a child that is no longer wanted is killed, and one that is wanted answers") {
+  const Stopwatch watch;
+  int asked = 0;
+  const ChildResult child = run_in_child(
+      1e9, []() -> std::string { wait_for_ever(); }, [&] { return ++asked > 2; });
+  CHECK(child.end == ChildEnd::out_of_time);
+  CHECK(asked == 3);
+  CHECK(no_children());
+  CHECK(watch.seconds() < 5.0);
+  const auto slow = [] {
+    usleep(120000);
+    return std::string("slow");
+  };
+  CHECK(run_in_child(60.0, slow, [] { return false; }).answer == "slow");
+}
+
 TEST_CASE("what the parent has is not touched; the child prints nowhere and may be lost") {
   int here = 1;
   const ChildResult result = run_in_child(60.0, [&] {

@@ -99,6 +99,23 @@ TEST_CASE("nothing is taken from a round that fails") {
   }
 }
 
+TEST_CASE("a solve that is cancelled does not wait for a child") {
+  Trial trial;
+  bool is_cancelled = false;
+  const Budget budget{.tolerance = 1e-12, .is_cancelled = [&] { return is_cancelled; }};
+  const auto hang = [](RoundAnswer&) {
+    std::this_thread::sleep_for(std::chrono::hours(1));
+    return true;
+  };
+  const Solved solved =
+      trial.solve(budget, 4, [&](const RoundRequest& request, RoundAnswer& answer) {
+        is_cancelled = true;
+        CHECK_FALSE(answer_apart(request.left, hang, answer));
+      });
+  CHECK(solved.reason == StopReason::time_limit);
+  CHECK(solved.iterations == 1);
+}
+
 TEST_CASE("what a round did besides its own work is start-up") {
   Trial trial;
   const auto solve = [&](double own_seconds) {
