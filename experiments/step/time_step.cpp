@@ -1,8 +1,8 @@
 #include "experiments/step/time_step.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "experiments/step/free_spin.hpp"
 #include "geometry/contact/broad_phase.hpp"
 #include "platform/clock.hpp"
 #include "platform/error.hpp"
@@ -13,10 +13,14 @@
 namespace ballast {
 namespace {
 
+double circumradius(const RigidBody& body) {
+  return body.shape.polyhedron ? body.shape.polyhedron->circumradius() : 0.0;
+}
+
 /// Bound on how far any point of the body moves in h, with what gravity and forces of the order of
-/// g may add.
-double reach_of(const RigidBody& body, const MotionState& state, int b, double h, double g) {
-  const double radius = body.shape.polyhedron ? body.shape.polyhedron->circumradius() : 0.0;
+/// g may add. `radius`: its circumradius.
+double reach_of(const RigidBody& body, double radius, const MotionState& state, int b, double h,
+                double g) {
   if (body.imposed) {
     const Pose next = body.imposed->motion.pose_at(state.time + 1.5 * h, body.imposed->start);
     const Travel travel = step_bound(state.pose[b], next);
@@ -47,28 +51,6 @@ double velocity_scale(const Scene& scene) {
   return g > 0.0 ? g * scene.step : 1.0;
 }
 
-Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
-  // Implicit mid-point rule for Euler's equations, I dw/dt = (I w) x w, by fixed-point iteration:
-  // it keeps the kinetic energy.
-  const Vec3 inverse = inertia.cwiseInverse();
-  Vec3 next = spin;
-  double change = 0.0;
-  for (int iteration = 0; iteration < 50; ++iteration) {  // contracts by ~ h |w| / 2: a few times
-    // w' = w + h I^-1 ((I w_m) x w_m) with w_m = (w + w') / 2.
-    const Vec3 mean = 0.5 * (spin + next);
-    const Vec3 update = spin + h * inverse.cwiseProduct(inertia.cwiseProduct(mean).cross(mean));
-    change = (update - next).norm();
-    next = update;
-    if (change <= 1e-16 * spin.norm()) return next;
-  }
-  if (change <= 1e-10 * spin.norm()) return next;
-  // From h |w| ~ 2 on that does not converge: two halves conserve both as well.
-  constexpr double most_radians = 1e3;
-  if (!(h * spin.norm() < most_radians))
-    return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-  return free_spin(inertia, free_spin(inertia, spin, 0.5 * h), 0.5 * h);
-}
-
 TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int driven_wall)
     : system_(system),
       h_(scene.step),
@@ -84,6 +66,11 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int
       some_shape_is_fixed_(std::ranges::any_of(system.bodies, [](const RigidBody& body) {
         return body.shape.fixed && body.shape.polyhedron;
       })) {
+  for (const RigidBody& body : system.bodies) {
+    radius_.push_back(circumradius(body));
+    // of what does not turn freely any
+    inertia_.push_back(body.freedom.rotation ? body.inertia : Vec3::Ones());
+  }
   if (spec_.change_tolerance > 0.0)
     solver_ = make_change_stopped(std::move(solver_), {spec_.change_tolerance, spec_.change_every});
   if (spec_.threads <= 1) return;
@@ -97,7 +84,7 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int
   detector_.use_team(team_.get(), parts_of_thread * spec_.threads);
 }
 
-/// Of one body, whose velocities have been packed.
+/// Of one body, whose velocities have been packed and whose spin after the step is known.
 void TimeStepper::free_motion(int b, const MotionState& state, double mid_time) {
   const int first = assembler_.first_dof(b);
   if (first < 0) return;
@@ -116,16 +103,15 @@ void TimeStepper::free_motion(int b, const MotionState& state, double mid_time) 
   // The gyroscopic term is solved for here, once, and not with the contacts.
   if (!body.freedom.rotation) return;
   const int spin = first + body.freedom.translations;
-  const Vec3 after = free_spin(body.inertia, state.spin[b], h);
   force_.segment<3>(spin).setZero();
-  gyroscopic_.segment<3>(spin) = body.inertia.cwiseProduct(after - state.spin[b]);
-  v_free().segment<3>(spin) = after;
+  gyroscopic_.segment<3>(spin) = body.inertia.cwiseProduct(spin_after_[b] - state.spin[b]);
+  v_free().segment<3>(spin) = spin_after_[b];
 }
 
 void TimeStepper::detect(const MotionState& mid, std::vector<ContactPoint>& contacts) {
   const double g = system_.gravity.norm();
   // Two bodies further apart than the sum of their reaches cannot touch within the step.
-  for_bodies([&](int b) { reach_[b] = reach_of(system_.bodies[b], mid, b, h_, g); });
+  for_bodies([&](int b) { reach_[b] = reach_of(system_.bodies[b], radius_[b], mid, b, h_, g); });
   ahead_.resize(some_shape_is_fixed_ ? mid.pose.size() : 0);
   if (some_shape_is_fixed_)
     for_bodies([&](int b) {
@@ -154,7 +140,10 @@ void TimeStepper::begin_problem(const MotionState& state, const StepMemory& memo
   assembler_.pack(state, v_before_);
   for (Eigen::VectorXd* unknowns : {&v_free(), &force_, &gyroscopic_})
     unknowns->resize(v_before_.size());
+  spin_after_.resize(system_.bodies.size());
   const auto move = [&](int begin, int end) {
+    const auto of = [&](auto& list) { return std::span(list).subspan(begin, end - begin); };
+    free_spins(of(inertia_), of(state.spin), h_, of(spin_after_));
     for (int b = begin; b < end; ++b) free_motion(b, state, mid_time);
   };
   run_ranges(

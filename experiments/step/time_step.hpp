@@ -87,6 +87,9 @@ class TimeStepper {
   ImpactLaw impact_law_;
 
   Impulses impulses_;
+  // Of each body, apart from what else is known of it: less memory to read.
+  std::vector<double> radius_;
+  std::vector<Vec3> inertia_, spin_after_;  ///< `spin_after_`: of a free flight
   std::vector<double> reach_;
   const bool some_shape_is_fixed_;  ///< then bodies may pass its edges
   std::vector<Pose> ahead_;         ///< at the next detection if nothing is met
@@ -95,10 +98,5 @@ class TimeStepper {
   Eigen::VectorXd v_before_;
   Eigen::VectorXd force_, gyroscopic_;  // h f, and the impulse of the gyroscopic term
 };
-
-/// Angular velocity after a free flight of h, torque-free: implicit mid-point rule of Euler's
-/// equations in the body frame, which conserves energy and |angular momentum| exactly. `inertia`
-/// principal [kg m^2], `spin` body frame [rad/s]. NaN where h |spin| is above a thousand.
-Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h);
 
 }  // namespace ballast

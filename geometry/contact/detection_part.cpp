@@ -156,19 +156,25 @@ void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts)
   const std::span<const double> reach = bodies_.reach;
   const Vec3 normal = contact_normal(bodies_.rotations[plane], bodies_.shapes[plane].plane);
   const Vec3& origin = poses[plane].position;
-  for (int b = 0; b < bodies_.count(); ++b) {
-    const double alert = reach[plane] + reach[b];
-    const double height = normal.dot(poses[b].position - origin);
-    if (height > bodies_.bounds[b].circumradius + alert) continue;
-    const CollisionShape* body = bodies_.shape(b);
-    if (!body || (bodies_.shapes[plane].fixed && bodies_.shapes[b].fixed)) continue;
-    if (bodies_.is_image[b]) continue;
-    body->vertices().evaluate(bodies_.rotations[b].transpose() * normal, heights_.data());
+  const auto height_of = [&](int b) { return normal.dot(poses[b].position - origin); };
+  near_.clear();
+  for (int b = 0; b < bodies_.count(); ++b)
+    if (!(height_of(b) > bodies_.bounds[b].circumradius + (reach[plane] + reach[b])) &&
+        bodies_.shape(b) && !(bodies_.is_fixed[plane] && bodies_.is_fixed[b]) &&
+        !bodies_.is_image[b])
+      near_.push_back(b);
+  constexpr size_t ahead = 6;  // bodies
+  for (size_t k = 0; k < near_.size(); ++k) {
+    if (k + ahead < near_.size()) bodies_.shape(near_[k + ahead])->vertices().fetch();
+    const int b = near_[k];
+    const double alert = reach[plane] + reach[b], height = height_of(b);
+    const AffineRows& vertices = bodies_.shape(b)->vertices();
+    vertices.evaluate(bodies_.rotations[b].transpose() * normal, heights_.data());
     const size_t before = contacts.size();
-    for (int v = 0; v < body->vertices().count(); ++v) {
+    for (int v = 0; v < vertices.count(); ++v) {
       const double gap = height + heights_[v];
       if (gap > alert) continue;
-      const Vec3 vertex = poses[b].position + bodies_.rotations[b] * body->vertices().xyz(v);
+      const Vec3 vertex = poses[b].position + bodies_.rotations[b] * vertices.xyz(v);
       contacts.push_back(
           {plane, b, vertex_key(1, v), normal, midway_from_b(vertex, gap, normal), gap});
     }

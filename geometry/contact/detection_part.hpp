@@ -101,6 +101,7 @@ class DetectionPart {
   Heights heights_;
   Records records_;
   std::vector<int> chosen_;  // candidate pairs that must be looked at
+  std::vector<int> near_;    // bodies whose balls are within reach of a plane
   DetectionCounters counters_;
 };
 
