@@ -10,15 +10,16 @@ namespace {
 
 constexpr int tile_rows = 8;     // of C: one register of 512 bits, two of 256
 constexpr int tile_columns = 6;  // with them 12 of the 16 registers of 256 bits are sums
+constexpr int tall_rows = 16;    // of 512 bits: 12 of 32, or loads would take longer than sums
 constexpr int chunk = 256;       // of the sum over k: what is packed of A stays near
 constexpr int strip = 24;        // rows that are solved for before a long product
 
 #define BALLAST_INLINE inline __attribute__((always_inline))
 
-/// Eight rows of a column, in registers of so many bytes.
-template <int bytes>
+/// `height` rows of a column, in registers of so many bytes.
+template <int bytes, int height = tile_rows>
 struct Rows {
-  static constexpr int lanes = bytes / static_cast<int>(sizeof(double)), count = tile_rows / lanes;
+  static constexpr int lanes = bytes / static_cast<int>(sizeof(double)), count = height / lanes;
   typedef double Register __attribute__((vector_size(bytes)));
   typedef double Loose __attribute__((vector_size(bytes), aligned(8), may_alias));
   Register part[count];
@@ -34,34 +35,58 @@ struct Rows {
   }
   /// The first `rows` of them, the others zero.
   BALLAST_INLINE void load(const double* from, int rows) {
-    if (rows == tile_rows) return load(from);
-    double all[tile_rows];
-    for (int i = 0; i < tile_rows; ++i) all[i] = i < rows ? from[i] : 0.0;
+    if (rows == height) return load(from);
+    double all[height];
+    for (int i = 0; i < height; ++i) all[i] = i < rows ? from[i] : 0.0;
     load(all);
   }
   BALLAST_INLINE void store(double* to, int rows) const {
-    if (rows == tile_rows) return store(to);
-    double all[tile_rows];
+    if (rows == height) return store(to);
+    double all[height];
     store(all);
     for (int i = 0; i < rows; ++i) to[i] = all[i];
   }
 };
 
 /// N columns of C -= packed A times B.
-template <int N, int bytes>
-BALLAST_INLINE void subtract_tile(int rows, int depth, const Rows<bytes>* packed, const double* b,
-                                  std::int64_t stride_b, double* c, std::int64_t stride_c) {
-  Rows<bytes> sum[N];
+template <int N, int bytes, int height>
+BALLAST_INLINE void subtract_tile(int rows, int depth, const Rows<bytes, height>* packed,
+                                  const double* b, std::int64_t stride_b, double* c,
+                                  std::int64_t stride_c) {
+  Rows<bytes, height> sum[N];
   for (int j = 0; j < N; ++j) sum[j].clear();
   for (int p = 0; p < depth; ++p)
     for (int j = 0; j < N; ++j)
-      for (int i = 0; i < Rows<bytes>::count; ++i)
+      for (int i = 0; i < sum[j].count; ++i)
         sum[j].part[i] += packed[p].part[i] * b[j * stride_b + p];
   for (int j = 0; j < N; ++j, c += stride_c) {
-    Rows<bytes> there;
+    Rows<bytes, height> there;
     there.load(c, rows);
-    for (int i = 0; i < Rows<bytes>::count; ++i) there.part[i] -= sum[j].part[i];
+    for (int i = 0; i < sum[j].count; ++i) there.part[i] -= sum[j].part[i];
     there.store(c, rows);
+  }
+}
+
+/// `rows` rows of C -= A B, at most `height`; `depth` of the sum.
+template <int bytes, int height>
+BALLAST_INLINE void subtract_rows(int rows, int n, int depth, const double* a,
+                                  std::int64_t stride_a, const double* b, std::int64_t stride_b,
+                                  double* c, std::int64_t stride_c) {
+  Rows<bytes, height> packed[chunk];
+  for (int p = 0; p < depth; ++p) packed[p].load(a + p * stride_a, rows);
+  int j = 0;
+  for (; j + tile_columns <= n; j += tile_columns) {
+    subtract_tile<tile_columns>(rows, depth, packed, b, stride_b, c, stride_c);
+    b += tile_columns * stride_b;
+    c += tile_columns * stride_c;
+  }
+  switch (n - j) {
+    case 1: return subtract_tile<1>(rows, depth, packed, b, stride_b, c, stride_c);
+    case 2: return subtract_tile<2>(rows, depth, packed, b, stride_b, c, stride_c);
+    case 3: return subtract_tile<3>(rows, depth, packed, b, stride_b, c, stride_c);
+    case 4: return subtract_tile<4>(rows, depth, packed, b, stride_b, c, stride_c);
+    case 5: return subtract_tile<5>(rows, depth, packed, b, stride_b, c, stride_c);
+    default: return;
   }
 }
 
@@ -69,23 +94,16 @@ template <int bytes>
 BALLAST_INLINE void product_loop(int m, int n, int k, const double* a, std::int64_t stride_a,
                                  const double* b, std::int64_t stride_b, double* c,
                                  std::int64_t stride_c) {
-  Rows<bytes> packed[chunk];
-  for (int from = 0; from < k; from += chunk) {
+  for (int from = 0; from < k; from += chunk, a += chunk * stride_a) {
     const int depth = std::min(chunk, k - from);
-    for (int i = 0; i < m; i += tile_rows) {
-      const int rows = std::min(tile_rows, m - i);
-      for (int p = 0; p < depth; ++p) packed[p].load(a + (from + p) * stride_a + i, rows);
-      const double* right = b + from;
-      double* to = c + i;
-      int j = 0;
-      for (; j + tile_columns <= n; j += tile_columns) {
-        subtract_tile<tile_columns>(rows, depth, packed, right, stride_b, to, stride_c);
-        right += tile_columns * stride_b;
-        to += tile_columns * stride_c;
-      }
-      for (; j < n; ++j, right += stride_b, to += stride_c)
-        subtract_tile<1>(rows, depth, packed, right, stride_b, to, stride_c);
-    }
+    int i = 0;
+    if constexpr (bytes == 64)
+      for (; i + tall_rows <= m; i += tall_rows)
+        subtract_rows<bytes, tall_rows>(tall_rows, n, depth, a + i, stride_a, b + from, stride_b,
+                                        c + i, stride_c);
+    for (; i < m; i += tile_rows)
+      subtract_rows<bytes, tile_rows>(std::min(tile_rows, m - i), n, depth, a + i, stride_a,
+                                      b + from, stride_b, c + i, stride_c);
   }
 }
 
