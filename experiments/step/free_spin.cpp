@@ -34,7 +34,7 @@ BALLAST_FOR_EACH_CPU void find_spins(SpinBlock& block, double h) {
       b.after[i][k] = b.spin[i][k];
     }
     const double x = b.spin[0][k], y = b.spin[1][k], z = b.spin[2][k];
-    enough[k] = rounding * std::sqrt(x * x + (y * y + z * z));
+    enough[k] = rounding * std::sqrt((x * x + y * y) + z * z);
     b.is_found[k] = 0.0;
   }
   double found = 0.0;
@@ -56,7 +56,7 @@ BALLAST_FOR_EACH_CPU void find_spins(SpinBlock& block, double h) {
         square[i] = change * change;
         b.after[i][k] = was_found ? b.after[i][k] : update;
       }
-      const double change = std::sqrt(square[0] + (square[1] + square[2]));
+      const double change = std::sqrt((square[0] + square[1]) + square[2]);
       b.is_found[k] = was_found || change <= enough[k] ? 1.0 : 0.0;
     }
     found = 0.0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "problems/mechanics/contact_rows.hpp"
+
 namespace ballast {
 
 namespace {
@@ -21,6 +23,18 @@ Mat3 frame_of(const Vec3& n, const Vec3& first_tangent) {
   return frame;
 }
 
+Vec3 column(const double (&numbers)[3][ContactRows::size], int k) {
+  return Vec3(numbers[0][k], numbers[1][k], numbers[2][k]);
+}
+
+Mat3 frame_in(const ContactRows& block, int k) {
+  Mat3 frame;
+  frame.row(0) = column(block.normal, k);
+  frame.row(1) = column(block.tangent[0], k);
+  frame.row(2) = column(block.tangent[1], k);
+  return frame;
+}
+
 }  // namespace
 
 Mat3 contact_frame(const Vec3& normal) { return frame_of(normal, first_tangent(normal)); }
@@ -30,7 +44,8 @@ ProblemAssembler::ProblemAssembler(const MechanicalSystem& system)
   for (const RigidBody& body : system.bodies) {
     const bool is_like_last = !sides_.empty() && *sides_.back().freedom == body.freedom;
     sides_.push_back({is_like_last ? sides_.back().freedom : &body.freedom,
-                      body.is_wall() ? body.wall.friction : -1.0, body.material});
+                      body.freedom == Freedom{}, body.is_wall() ? body.wall.friction : -1.0,
+                      body.material});
     if (body.imposed) some_motion_is_imposed_ = true;
     const int dofs = body.freedom.count();
     if (dofs == 0) {
@@ -82,29 +97,40 @@ void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) cons
   });
 }
 
-/// Writes both bodies' parts of a contact's rows of H, unknown after unknown; of body a with a
-/// minus, since u = velocity of b - velocity of a.
-template <int Rows>
-void ProblemAssembler::write_contact(const ContactPoint& contact, const Mat3& frame,
-                                     std::span<const Pose> poses, double* h) const {
-  for (const int body : {contact.body_a, contact.body_b}) {
-    const Freedom& freedom = *sides_[body].freedom;
-    const double sign = body == contact.body_b ? 1.0 : -1.0;
-    // The point moves with v + w x s, of which a row takes the part along its direction d: for the
-    // translations d . axis, for the spin the triple product below.
-    for (int d = 0; d < freedom.translations; ++d)
-      for (int row = 0; row < Rows; ++row) *h++ = sign * frame.row(row).dot(freedom.axes.col(d));
-    if (!freedom.rotation) continue;
-    // d . R (w_B x s) = w_B . (s x R^T d): lever and direction in the body frame
-    const Mat3& rotation = rotations_[body];
+/// What find_rows() needs of a contact, into place k.
+void ProblemAssembler::take_contact(const ContactPoint& contact, std::span<const Pose> poses, int k,
+                                    ContactRows& block) const {
+  for (int i = 0; i < 3; ++i) block.normal[i][k] = contact.normal[i];
+  for (int side = 0; side < 2; ++side) {
+    const int body = side == 0 ? contact.body_a : contact.body_b;
+    if (!sides_[body].freedom->rotation) continue;
     const Vec3 arm = system_.period.nearest(contact.position - poses[body].position);
-    const Vec3 lever = sign * (rotation.transpose() * arm);
-    const Mat3 directions = rotation.transpose() * frame.transpose();
-    for (int row = 0; row < Rows; ++row) {
-      const Vec3 turning = lever.cross(Vec3(directions.col(row)));
-      for (int d = 0; d < 3; ++d) h[d * Rows + row] = turning[d];
+    for (int i = 0; i < 3; ++i) {
+      block.arm[side][i][k] = arm[i];
+      for (int j = 0; j < 3; ++j) block.rotation[side][i][j][k] = rotations_[body](i, j);
     }
-    h += 3 * Rows;
+  }
+}
+
+/// Writes both bodies' parts of a contact's rows of H, unknown after unknown.
+template <int Rows>
+void ProblemAssembler::write_contact(const ContactPoint& contact, const ContactRows& block, int k,
+                                     double* h) const {
+  for (int side = 0; side < 2; ++side) {
+    const Side& body = sides_[side == 0 ? contact.body_a : contact.body_b];
+    const double sign = side == 0 ? -1.0 : 1.0;
+    if (body.moves_freely) {
+      for (int d = 0; d < 3; ++d)
+        for (int row = 0; row < Rows; ++row) *h++ = sign * block.line[row][d][k];
+    } else {
+      const Mat3 frame = frame_in(block, k);
+      for (int d = 0; d < body.freedom->translations; ++d)
+        for (int row = 0; row < Rows; ++row)
+          *h++ = sign * frame.row(row).dot(body.freedom->axes.col(d));
+    }
+    if (!body.freedom->rotation) continue;
+    for (int d = 0; d < 3; ++d)
+      for (int row = 0; row < Rows; ++row) *h++ = block.turn[side][row][d][k];
   }
 }
 
@@ -166,17 +192,22 @@ void ProblemAssembler::write_rows(const StepInput& step) {
     if (freedom.rotation) rotations_[b] = step.state.pose[b].rotation.toRotationMatrix();
   });
   run_ranges(team_, problem_.contact_count(), /*together=*/128, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const ContactPoint& contact = step.contacts[detected_[k]];
-      // The points of a pair have one normal.
-      const bool is_same = k > begin && contact.normal == step.contacts[detected_[k - 1]].normal;
-      first_tangents_[k] = is_same ? first_tangents_[k - 1] : first_tangent(contact.normal);
-      const Mat3 frame = frame_of(contact.normal, first_tangents_[k]);
-      double* block = dynamics.h.data() + dynamics.h_begin[k];
-      if (problem_.contact_rows(k) == 3)
-        write_contact<3>(contact, frame, step.state.pose, block);
-      else
-        write_contact<1>(contact, frame, step.state.pose, block);
+    ContactRows block{};
+    for (int first = begin; first < end; first += ContactRows::size) {
+      const int count = std::min(ContactRows::size, end - first);
+      const auto contact = [&](int k) -> const ContactPoint& {
+        return step.contacts[detected_[first + k]];
+      };
+      for (int k = 0; k < count; ++k) take_contact(contact(k), step.state.pose, k, block);
+      find_rows(block);
+      for (int k = 0; k < count; ++k) {
+        first_tangents_[first + k] = column(block.tangent[0], k);
+        double* h = dynamics.h.data() + dynamics.h_begin[first + k];
+        if (problem_.contact_rows(first + k) == 3)
+          write_contact<3>(contact(k), block, k, h);
+        else
+          write_contact<1>(contact(k), block, k, h);
+      }
     }
   });
 }

@@ -25,6 +25,8 @@ struct StepInput {
   double end_time;  ///< of the step [s], which began at state.time; contacts are detected midway
 };
 
+struct ContactRows;
+
 /// Turns contacts into a FrictionProblem, step after step, into the same buffers. The masses stay.
 class ProblemAssembler {
  public:
@@ -95,9 +97,10 @@ class ProblemAssembler {
   template <class Task>
   void for_free_bodies(const Task& task) const;
   void write_rows(const StepInput& step);
+  void take_contact(const ContactPoint& contact, std::span<const Pose> poses, int k,
+                    ContactRows& block) const;
   template <int Rows>
-  void write_contact(const ContactPoint& contact, const Mat3& frame, std::span<const Pose> poses,
-                     double* h) const;
+  void write_contact(const ContactPoint& contact, const ContactRows& block, int k, double* h) const;
   void write_bias(const StepInput& step);
 
   const MechanicalSystem& system_;
@@ -105,6 +108,7 @@ class ProblemAssembler {
   /// What a contact's rows need of a body, close together: bodies themselves are large.
   struct Side {
     const Freedom* freedom;  // the same object for all bodies whose freedom is the same
+    bool moves_freely;       // its unknowns are velocities along x, y, z, then the spin
     double wall_friction;    // below 0: no wall
     int material;            // its number; -1: none
   };

@@ -250,7 +250,7 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
   const int c = f.contact[lane];
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
   const int bodies[2] = {dynamics.body_a[c], dynamics.body_b[c]};
-  bool opposite = true, found = false;
+  const double* linear[2] = {};
   for (int s = 0; s < 2; ++s) {
     const int body = bodies[s];
     if (body < 0) continue;
@@ -263,23 +263,24 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
       }
     k.body[s][lane] = row_of_body_[body] * row_bytes;
     k.inverse_mass[s][lane] = root.inverse[0] * root.inverse[0];
-    // Both sides see the same linear rows with opposite signs: they are stored once, as b has them.
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < rows; ++i) {
-        const double entry = s == 0 ? -block[j * rows + i] : block[j * rows + i];
-        opposite = opposite && !(found && entry != k.line[i][j][lane]);
-        k.line[i][j][lane] = entry;
-      }
     root.scaled_columns<rows>(block, [&k, s, lane](int j, const double* column) {
       if (j < 3) return;
       for (int i = 0; i < rows; ++i) k.turn[s][i][j - 3][lane] = column[i];
     });
+    linear[s] = block;
     block += rows * 6;
-    found = true;
   }
+  // Both sides see the same linear rows with opposite signs: they are stored once, as b has them.
+  const double sign = linear[1] ? 1.0 : -1.0, *line = linear[1] ? linear[1] : linear[0];
+  int unlike = 0;
+  for (int j = 0; line && j < 3; ++j)
+    for (int i = 0; i < rows; ++i) {
+      k.line[i][j][lane] = sign * line[j * rows + i];
+      unlike += linear[0] && linear[1] && linear[0][j * rows + i] != -line[j * rows + i];
+    }
   for (int i = 0; i < rows; ++i) k.bias[i][lane] = dynamics.bias[problem.row_begin[c] + i];
   f.mu[lane] = problem.friction[c];
-  return opposite;
+  return unlike == 0;
 }
 
 void WideSweep::free_bodies(const DynamicsForm& dynamics) {

@@ -67,6 +67,15 @@ BALLAST_INLINE void subtract_tile(int rows, int depth, const Rows<bytes, height>
   }
 }
 
+/// The same for as many columns as there are, at most N.
+template <int N, int bytes, int height>
+BALLAST_INLINE void subtract_last(int columns, int rows, int depth,
+                                  const Rows<bytes, height>* packed, const double* b,
+                                  std::int64_t stride_b, double* c, std::int64_t stride_c) {
+  if (columns == N) return subtract_tile<N>(rows, depth, packed, b, stride_b, c, stride_c);
+  if constexpr (N > 1) subtract_last<N - 1>(columns, rows, depth, packed, b, stride_b, c, stride_c);
+}
+
 /// `rows` rows of C -= A B, at most `height`; `depth` of the sum.
 template <int bytes, int height>
 BALLAST_INLINE void subtract_rows(int rows, int n, int depth, const double* a,
@@ -80,14 +89,7 @@ BALLAST_INLINE void subtract_rows(int rows, int n, int depth, const double* a,
     b += tile_columns * stride_b;
     c += tile_columns * stride_c;
   }
-  switch (n - j) {
-    case 1: return subtract_tile<1>(rows, depth, packed, b, stride_b, c, stride_c);
-    case 2: return subtract_tile<2>(rows, depth, packed, b, stride_b, c, stride_c);
-    case 3: return subtract_tile<3>(rows, depth, packed, b, stride_b, c, stride_c);
-    case 4: return subtract_tile<4>(rows, depth, packed, b, stride_b, c, stride_c);
-    case 5: return subtract_tile<5>(rows, depth, packed, b, stride_b, c, stride_c);
-    default: return;
-  }
+  subtract_last<tile_columns - 1>(n - j, rows, depth, packed, b, stride_b, c, stride_c);
 }
 
 template <int bytes>
