@@ -46,12 +46,15 @@ void SweepPlan::find_slabs(const DynamicsForm& dynamics) {
 void SweepPlan::find_levels(const DynamicsForm& dynamics) {
   const int bodies = dynamics.body_count(), contacts = static_cast<int>(dynamics.body_a.size());
   // The graph of bodies as lists of neighbours: the ends of contacts by their bodies, each then
-  // replaced by the contact's other end.
+  // replaced by the contact's other end. Of the contacts of a pair that follow each other one does.
   ends_.clear();
   ends_.reserve(2 * contacts);
-  for (int c = 0; c < contacts; ++c)
-    if (dynamics.body_a[c] >= 0 && dynamics.body_b[c] >= 0)
-      ends_.insert(ends_.end(), {dynamics.body_a[c], dynamics.body_b[c]});
+  for (int c = 0; c < contacts; ++c) {
+    const int a = dynamics.body_a[c], b = dynamics.body_b[c];
+    if (a < 0 || b < 0 || (c > 0 && a == dynamics.body_a[c - 1] && b == dynamics.body_b[c - 1]))
+      continue;
+    ends_.insert(ends_.end(), {a, b});
+  }
   sort_by_key(ends_, bodies, neighbour_begin_, neighbour_);
   for (int& end : neighbour_) end = ends_[end ^ 1];
   // Component by component: a search to its rim, and the levels from there.
