@@ -1,6 +1,7 @@
 #include "platform/csv.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
@@ -25,6 +26,10 @@ void CsvWriter::add(std::string_view cell) {
 void CsvWriter::add(double value, int digits) {
   separate();
   text_ += printed("%.*g", digits, value);
+}
+
+std::string number_cell(double value, int digits) {
+  return std::isfinite(value) ? printed("%.*g", digits, value) : "";
 }
 
 void CsvWriter::add(long value) {

@@ -31,6 +31,9 @@ class CsvWriter {
   bool in_row_ = false;
 };
 
+/// A number as a cell, in so many digits as printf's %g has them; empty where it is not finite.
+std::string number_cell(double value, int digits);
+
 /// Reads a file row by row; empty lines are skipped.
 class CsvReader {
  public:

@@ -23,9 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In six digits; nothing for what is not known.
-std::string cell(double value) { return std::isfinite(value) ? printed("%.6g", value) : ""; }
-
 /// Rounded to single precision, so that the last bit of a machine's sines and powers is not in the
 /// problem. A mass block stays symmetric positive definite.
 void round_entries(DynamicsForm& dynamics) {
@@ -151,8 +148,9 @@ class Collection {
     manifest_.add_row(std::vector<std::string>{
         name, family, held ? "1" : "0", facts.content, std::to_string(facts.contacts),
         std::to_string(facts.rows), std::to_string(problem.dynamics.body_count()),
-        printed("%.4f", facts.rank_deficiency), cell(facts.mass_ratio), cell(friction.min),
-        cell(friction.max), step, phase, cell(warm_error)});
+        printed("%.4f", facts.rank_deficiency), number_cell(facts.mass_ratio, 6),
+        number_cell(friction.min, 6), number_cell(friction.max, 6), step, phase,
+        number_cell(warm_error, 6)});
   }
 
   /// Finds the reference where none is there that is exact or had as much time, and notes it. What

@@ -207,12 +207,8 @@ std::string runs_csv(std::span<const RunRow> rows) {
   csv.end_row();
   for (const RunRow& row : rows) {
     for (const TextColumn& column : text_columns) csv.add(row.*column.text);
-    // what is not known is an empty cell
-    for (const double& value : row.numbers)
-      if (std::isfinite(value))
-        csv.add(value, &value == row.numbers.data() ? 17 : 9);  // first the seed: all digits
-      else
-        csv.add("");
+    for (const double& value : row.numbers)  // first the seed: all digits
+      csv.add(number_cell(value, &value == row.numbers.data() ? 17 : 9));
     csv.end_row();
   }
   return csv.take();

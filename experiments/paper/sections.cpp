@@ -22,14 +22,6 @@ constexpr double least_law_p = 0.01;
 
 constexpr const char* every_section = "all";
 
-/// The k-th value as a cell; empty where there is none or it is not finite.
-void add_value(CsvWriter& csv, const std::vector<double>& values, size_t k) {
-  if (k < values.size() && std::isfinite(values[k]))
-    csv.add(values[k], 10);
-  else
-    csv.add("");
-}
-
 /// The stages that a target runs.
 std::set<std::string> needed(const std::vector<PlannedRun>& campaign, const std::string& target) {
   std::set<std::string> stages;
@@ -300,7 +292,7 @@ std::string figure_csv(const Figure& figure) {
         csv.add(curve.title.empty() ? std::to_string(c + 1) : plain_words(curve.title));
         csv.add(plain_words(panel.x_label));
         for (const auto* values : {&curve.x, &curve.y, &curve.y_error, &curve.y_low})
-          add_value(csv, *values, k);
+          csv.add(k < values->size() ? number_cell((*values)[k], 10) : "");
         csv.end_row();
       }
     }

@@ -85,10 +85,8 @@ void write_index(const fs::path& results, const Plan& plan, const std::set<std::
         plan.name, run.name, run.key, state, std::to_string(done), std::to_string(run.steps)};
     try {
       const Manifest manifest = Manifest::read(folder.manifest());
-      for (const char* name : {"drive_seconds", "error_mean_relative"}) {
-        const double number = manifest.summary_number(name);
-        cells.push_back(std::isnan(number) ? "" : printed("%.6g", number));
-      }
+      for (const char* name : {"drive_seconds", "error_mean_relative"})
+        cells.push_back(number_cell(manifest.summary_number(name), 6));
       cells.push_back(manifest.commit());
     } catch (const Error&) {  // not written yet, or damaged: the run itself will say so
       cells.resize(9);

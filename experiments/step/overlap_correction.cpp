@@ -5,19 +5,6 @@
 namespace ballast {
 namespace {
 
-/// Calls f(unknown, coefficient) over the normal row of contact c.
-template <class F>
-void for_normal_row(const FrictionProblem& problem, int c, F&& f) {
-  const DynamicsForm& dynamics = problem.dynamics;
-  const int rows = problem.contact_rows(c);
-  const double* block = dynamics.h.data() + dynamics.h_begin[c];
-  for (int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
-    const int dofs = dynamics.body_dofs(body);
-    const int first = body < 0 ? 0 : dynamics.dof_begin[body];
-    for (int d = 0; d < dofs; ++d, block += rows) f(first + d, *block);
-  }
-}
-
 double normal_velocity(const FrictionProblem& problem, int c, const Eigen::VectorXd& v) {
   double u = 0.0;
   for_normal_row(problem, c, [&](int dof, double h) { u += h * v[dof]; });

@@ -13,10 +13,6 @@
 namespace ballast {
 namespace {
 
-double circumradius(const RigidBody& body) {
-  return body.shape.polyhedron ? body.shape.polyhedron->circumradius() : 0.0;
-}
-
 /// Bound on how far any point of the body moves in h, with what gravity and forces of the order of
 /// g may add. `radius`: its circumradius.
 double reach_of(const RigidBody& body, double radius, const MotionState& state, int b, double h,
@@ -67,7 +63,7 @@ TimeStepper::TimeStepper(const MechanicalSystem& system, const Scene& scene, int
         return body.shape.fixed && body.shape.polyhedron;
       })) {
   for (const RigidBody& body : system.bodies) {
-    radius_.push_back(circumradius(body));
+    radius_.push_back(body.is_wall() ? 0.0 : body.shape.polyhedron->circumradius());
     // of what does not turn freely any
     inertia_.push_back(body.freedom.rotation ? body.inertia : Vec3::Ones());
   }

@@ -129,9 +129,21 @@ FrictionProblem local_problem(SparseRows&& w, Eigen::VectorXd q, std::vector<dou
 /// The rows of contact c of a vector over all rows, as three: those that it has not are zero.
 inline Eigen::Vector3d rows_of_contact(const FrictionProblem& problem, const Eigen::VectorXd& all,
                                        int c) {
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  x.head(problem.contact_rows(c)) = all.segment(problem.row_begin[c], problem.contact_rows(c));
-  return x;
+  const double* rows = all.data() + problem.row_begin[c];
+  return problem.contact_rows(c) == 3 ? Eigen::Vector3d(rows[0], rows[1], rows[2])
+                                      : Eigen::Vector3d(rows[0], 0.0, 0.0);
+}
+
+/// Calls visit(unknown, entry) over the normal row of H of contact c; dynamics form only.
+template <class Visit>
+void for_normal_row(const FrictionProblem& problem, int c, const Visit& visit) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  const int rows = problem.contact_rows(c);
+  const double* block = dynamics.h.data() + dynamics.h_begin[c];
+  for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
+    const int dofs = dynamics.body_dofs(body), first = body < 0 ? 0 : dynamics.dof_begin[body];
+    for (int d = 0; d < dofs; ++d, block += rows) visit(first + d, *block);
+  }
 }
 
 /// The diagonal block of contact c in the stored W, as it is; entries beyond its rows are zero.

@@ -229,14 +229,10 @@ void ProblemAssembler::write_bias(const StepInput& step) {
   // Newton's law: u_N+ + e u_N- >= 0 for approaching points
   rebound_.assign(problem_.contact_count(), 0.0);
   pack(step.state, v_before_);
-  // The normal part of H v before the step: the first row of each block, one entry per unknown.
+  // The normal part of H v before the step.
   for (int c = 0; c < problem_.contact_count(); ++c) {
-    const int rows = problem_.contact_rows(c);
-    const double* block = dynamics.h.data() + dynamics.h_begin[c];
     double approach = imposed_before_[problem_.row_begin[c]];
-    for (int body : {dynamics.body_a[c], dynamics.body_b[c]})
-      for (int d = 0; d < dynamics.body_dofs(body); ++d, block += rows)
-        approach += *block * v_before_[dynamics.dof_begin[body] + d];
+    for_normal_row(problem_, c, [&](int dof, double h) { approach += h * v_before_[dof]; });
     if (!(approach < 0.0)) continue;
     rebound_[c] = restitution_[c] * approach;
     dynamics.bias[problem_.row_begin[c]] += rebound_[c];

@@ -130,13 +130,8 @@ void SweepPlan::find_openings(const FrictionProblem& problem, int begin, int end
     const double gap = dynamics.bias[problem.row_begin[c]];
     opening_[c] = 0.0;
     if (!(gap > 0.0)) continue;
-    const int rows = problem.contact_rows(c);
-    const double* entry = dynamics.h.data() + dynamics.h_begin[c];
     double free = gap;
-    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
-      const double* v = dynamics.v_free.data() + (body < 0 ? 0 : dynamics.dof_begin[body]);
-      for (int j = 0; j < dynamics.body_dofs(body); ++j, entry += rows) free += *entry * v[j];
-    }
+    for_normal_row(problem, c, [&](int dof, double h) { free += h * dynamics.v_free[dof]; });
     opening_[c] = std::clamp(free, 0.0, gap);
   }
 }

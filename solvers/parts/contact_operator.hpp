@@ -36,9 +36,7 @@ class ContactOperator {
   /// One contact's rows, zero-padded: a one-row contact is a frictionless one without tangential
   /// motion.
   Eigen::Vector3d at(const Eigen::VectorXd& x, int c) const {
-    const double* rows = x.data() + problem_->row_begin[c];
-    return problem_->contact_rows(c) == 3 ? Eigen::Vector3d(rows[0], rows[1], rows[2])
-                                          : Eigen::Vector3d(rows[0], 0.0, 0.0);
+    return rows_of_contact(*problem_, x, c);
   }
   void put(Eigen::VectorXd& x, int c, const Eigen::Vector3d& value) const {
     double* rows = x.data() + problem_->row_begin[c];

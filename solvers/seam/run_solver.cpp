@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "platform/clock.hpp"
@@ -32,11 +31,8 @@ void validate_start(const FrictionProblem& problem, Impulses& start) {
 /// The first part of the law that the answer misses.
 std::string what_is_missed(const ContactError& error, double tolerance) {
   if (!error.finite) return "the impulses, or velocities that they give, are not finite";
-  std::ostringstream text;
-  text.precision(3);
-  const auto missed = [&](const char* part, double value, double bound) {
-    text << part << " is " << value << " m/s (rms), at most " << bound << " may be";
-    return text.str();
+  const auto missed = [](const char* part, double value, double bound) {
+    return printed("%s is %.3g m/s (rms), at most %.3g may be", part, value, bound);
   };
   const double bound = ContactError::bound_factor * tolerance;
   if (!(error.natural_map_rms <= tolerance))
@@ -80,15 +76,11 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
            (run.failure.empty() ? "" : ": " + run.failure);
   if (run.verdict == Verdict::denied)
     return "the judge denies it: " + what_is_missed(run.error, tolerance);
-  std::ostringstream text;
-  text.precision(3);
-  text << "no solution found; ";
   if (run.error.immovable_approach > tolerance)
-    text << "a contact that no impulse moves sinks in at " << run.error.immovable_approach
-         << " m/s";
-  else
-    text << "r grows without bound: " << run.error.growth << " times what a contact alone needs";
-  return text.str();
+    return printed("no solution found; a contact that no impulse moves sinks in at %.3g m/s",
+                   run.error.immovable_approach);
+  return printed("no solution found; r grows without bound: %.3g times what a contact alone needs",
+                 run.error.growth);
 }
 
 /// One call of the solver within what is left, and what came of it: judged from the impulses alone,

@@ -44,6 +44,12 @@ TEST_CASE("rows are written as they are documented") {
   CHECK(csv.take().empty());
 }
 
+TEST_CASE("a number that is not known is an empty cell") {
+  CHECK(number_cell(2.0 / 3.0, 4) == "0.6667");
+  CHECK(number_cell(std::nan(""), 17).empty());
+  CHECK(number_cell(-HUGE_VAL, 6).empty());
+}
+
 TEST_CASE("any cells come back, and numbers bit by bit") {
   const TemporaryFolder folder;
   Random random(3);
