@@ -34,9 +34,12 @@ TEST_CASE("contact rows have the bits of Eigen's products, contact by contact") 
     Vec3 normal[ContactRows::size], arm[2][ContactRows::size];
     Mat3 rotation[2][ContactRows::size];
     for (int k = 0; k < ContactRows::size; ++k) {
-      // along an axis, between two axes, and anywhere
+      // along an axis with zeros of both signs, between two axes, and anywhere
       normal[k] = vector().normalized();
       if (round % 4 == 1) normal[k] = (k % 2 ? -1.0 : 1.0) * Vec3::Unit(k % 3);
+      if (round % 4 == 1)
+        for (int i = 0; i < 3; ++i)
+          if (normal[k][i] == 0.0) normal[k][i] = std::copysign(0.0, number(random));
       if (round % 4 == 2) normal[k] = (Vec3::Unit(k % 3) - Vec3::Unit((k + 1) % 3)).normalized();
       for (int i = 0; i < 3; ++i) block.normal[i][k] = normal[k][i];
       for (int side = 0; side < 2; ++side) {
