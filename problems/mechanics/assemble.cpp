@@ -27,14 +27,6 @@ Vec3 column(const double (&numbers)[3][ContactRows::size], int k) {
   return Vec3(numbers[0][k], numbers[1][k], numbers[2][k]);
 }
 
-Mat3 frame_in(const ContactRows& block, int k) {
-  Mat3 frame;
-  frame.row(0) = column(block.normal, k);
-  frame.row(1) = column(block.tangent[0], k);
-  frame.row(2) = column(block.tangent[1], k);
-  return frame;
-}
-
 }  // namespace
 
 Mat3 contact_frame(const Vec3& normal) { return frame_of(normal, first_tangent(normal)); }
@@ -123,7 +115,7 @@ void ProblemAssembler::write_contact(const ContactPoint& contact, const ContactR
       for (int d = 0; d < 3; ++d)
         for (int row = 0; row < Rows; ++row) *h++ = sign * block.line[row][d][k];
     } else {
-      const Mat3 frame = frame_in(block, k);
+      const Mat3 frame = frame_of(contact.normal, column(block.tangent[0], k));
       for (int d = 0; d < body.freedom->translations; ++d)
         for (int row = 0; row < Rows; ++row)
           *h++ = sign * frame.row(row).dot(body.freedom->axes.col(d));
