@@ -85,27 +85,32 @@ void WorkerTeam::start(int parts, Call call, const void* context) {
   wait_awake(1e30, [&] { return left_.load(std::memory_order_acquire) == 0; });
 }
 
-/// Those of `member`'s parts that nobody has taken yet: member, member + members, member +
-/// 2 members and so on, the same parts whoever does them.
+/// Those of `member`'s parts that nobody has taken yet, the same parts whoever does them.
 void WorkerTeam::do_parts(int member, Marked round) {
   const Marked number = round >> number_bits, parts = round % (Marked{1} << number_bits);
+  const Marked members = static_cast<Marked>(members_),
+               begin = static_cast<Marked>(member) * parts / members,
+               end = (static_cast<Marked>(member) + 1) * parts / members;
   std::atomic<Marked>& taken = shares_[static_cast<size_t>(member)].taken;
+  // Told to the others at the end, once: they may be far away.
+  int done = 0;
   while (true) {
     Marked now = taken.load(std::memory_order_acquire);
     const Marked marked = now >> number_bits;
-    if (marked > number) return;  // this round is over
+    if (marked > number) break;  // this round is over
     // A share that was last touched in an earlier round is whole.
     const Marked count = marked == number ? now % (Marked{1} << number_bits) : 0;
-    const Marked part = static_cast<Marked>(member) + count * static_cast<Marked>(members_);
-    if (part >= parts) return;
+    const Marked part = begin + count;
+    if (part >= end) break;
     // As long as this part is not taken and done the round goes on: whoever takes it does so in
     // this round, and finds its task.
     if (!taken.compare_exchange_weak(now, (number << number_bits) + count + 1,
                                      std::memory_order_acq_rel))
       continue;
     task_.call(task_.context, static_cast<int>(part));
-    left_.fetch_sub(1, std::memory_order_release);
+    ++done;
   }
+  if (done > 0) left_.fetch_sub(done, std::memory_order_release);
 }
 
 void WorkerTeam::work(int member, Marked seen) {

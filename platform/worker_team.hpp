@@ -15,8 +15,10 @@ namespace ballast {
 int available_cores();
 
 /// The caller is the first member; the others spin for a short while between two tasks, then sleep.
-/// Each member has parts of its own; what one that comes late (another program has its core) has
-/// not begun is done by the others. Which thread does a part makes no difference to it.
+/// Each member has parts of its own that follow each other, the same in every task of as many
+/// parts, so that what it writes in one task is in its core's cache in the next. What one that
+/// comes late (another program has its core) has not begun is done by the caller. Which thread does
+/// a part makes no difference to it.
 class WorkerTeam {
  public:
   WorkerTeam() = default;
@@ -123,11 +125,22 @@ template <typename Task, typename... Others>
 void run_ranges(WorkerTeam* team, int count, int together, const Task& task,
                 const Others&... others) {
   constexpr int first = sizeof...(others);
-  run_parts(team, first + (count + together - 1) / together, [&](int part) {
+  const int parts = first + (count + together - 1) / together;
+  run_parts(team, parts, [&](int part) {
+    // The others are spread over the parts, so that each stands first among a member's.
+    int range = part;
+    bool is_range = true;
     [[maybe_unused]] int other = 0;
-    ((part == other++ ? others() : void()), ...);
-    const int begin = (part - first) * together;
-    if (part >= first) task(begin, begin + std::min(together, count - begin));
+    [[maybe_unused]] const auto meet = [&](const auto& task_beside) {
+      const int place = other++ * parts / first;
+      range -= place < part;
+      if (place != part) return;
+      is_range = false;
+      task_beside();
+    };
+    (meet(others), ...);
+    const int begin = range * together;
+    if (is_range) task(begin, begin + std::min(together, count - begin));
   });
 }
 

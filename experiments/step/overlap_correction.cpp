@@ -43,7 +43,7 @@ void OverlapCorrection::find_targets(WorkerTeam* team, const ProblemAssembler& a
   if (!spec_.enabled || std::ranges::none_of(contacts, overlaps)) return;
   rows_.resize(problem.contact_count());
   const Eigen::VectorXd& imposed = assembler.imposed();
-  run_ranges(team, problem.contact_count(), /*together=*/1024, [&](int begin, int end) {
+  run_ranges(team, problem.contact_count(), /*together=*/128, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       const ContactPoint& contact = contacts[assembler.detected()[c]];
       const double walls = imposed.size() > 0 ? imposed[problem.row_begin[c]] : 0.0;

@@ -122,7 +122,8 @@ void TimeStepper::detect(const MotionState& mid, std::vector<ContactPoint>& cont
 void TimeStepper::carry(const StepMemory& memory) {
   // After a step that ended by an exception contacts have no impulses.
   if (spec_.warm_start && memory.impulses.size() == old_contacts_.size())
-    carry_impulses(old_contacts_, memory.impulses, memory.contacts, carried_);
+    carry_impulses(old_contacts_, memory.impulses, memory.contacts, carried_,
+                   team_.get());
   else
     carried_.assign(memory.contacts.size(), Vec3::Zero());
 }
@@ -142,9 +143,9 @@ void TimeStepper::begin_problem(const MotionState& state, const StepMemory& memo
     free_spins(of(inertia_), of(state.spin), h_, of(spin_after_));
     for (int b = begin; b < end; ++b) free_motion(b, state, mid_time);
   };
-  run_ranges(
-      team_.get(), static_cast<int>(system_.bodies.size()), /*together=*/256, move,
-      [&] { carry(memory); }, [&] { assembler_.lay_out(memory.contacts); });
+  run_ranges(team_.get(), static_cast<int>(system_.bodies.size()), /*together=*/64, move,
+             [&] { assembler_.lay_out(memory.contacts); });
+  carry(memory);
   // of the spins, only here: nothing may throw within the team
   if (v_free().allFinite()) return;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {

@@ -59,7 +59,7 @@ class TimeStepper {
   /// Calls task(body) for all, shared among the team.
   template <typename Task>
   void for_bodies(const Task& task) {
-    run_each(team_.get(), static_cast<int>(system_.bodies.size()), /*together=*/256, task);
+    run_each(team_.get(), static_cast<int>(system_.bodies.size()), /*together=*/64, task);
   }
   /// Written where the problem has them.
   Eigen::VectorXd& v_free() { return assembler_.problem().dynamics.v_free; }

@@ -62,6 +62,7 @@ struct ContactDetector::State {
 
   void check(std::span<const Pose> poses, std::span<const double> reach) const;
   void share();
+  void put_together(std::vector<ContactPoint>& contacts);
 
   DetectionSettings settings;
   size_t body_count;
@@ -92,7 +93,6 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
                              std::vector<ContactPoint>& contacts, std::span<const Pose> ahead) {
   State& s = *state_;
   s.check(poses, reach);
-  contacts.clear();
   if (s.elements) {
     s.elements->place(poses, reach, ahead);
     ahead = s.elements->ahead();
@@ -105,26 +105,35 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   const long rebuilds = s.broad_phase.rebuilds();
   s.broad_phase.update(poses, s.bodies.rotations, s.bodies.reach);
   if (s.broad_phase.rebuilds() != rebuilds) s.share();
-  run_parts(s.team, static_cast<int>(s.parts.size()), [&](int k) {
-    std::vector<ContactPoint>& found = k == 0 ? contacts : s.parts[k].found;
+  // The only part writes to `contacts`; what several have found is put together in their order.
+  const int parts = static_cast<int>(s.parts.size());
+  run_parts(s.team, parts, [&](int k) {
+    std::vector<ContactPoint>& found = parts == 1 ? contacts : s.parts[k].found;
     found.clear();
     s.parts[k].detect(s.broad_phase, found);
   });
-  // Part 0 has written to `contacts`; the others' follow in order.
+  if (parts > 1) s.put_together(contacts);
   s.counters = DetectionCounters{};
   s.counters.broad_phase_rebuilds = s.broad_phase.rebuilds();
-  size_t count = contacts.size();
-  for (size_t k = 1; k < s.parts.size(); ++k) count += s.parts[k].found.size();
-  if (count > contacts.capacity()) contacts.reserve(count + count / 8);  // room for later steps
-  for (size_t k = 0; k < s.parts.size(); ++k) {
+  for (const DetectionPart& part : s.parts)
     for (const auto counter :
          {&DetectionCounters::candidate_pairs, &DetectionCounters::cached_separations,
           &DetectionCounters::proved_axes, &DetectionCounters::full_tests,
           &DetectionCounters::manifolds})
-      s.counters.*counter += s.parts[k].counters().*counter;
-    if (k > 0) contacts.insert(contacts.end(), s.parts[k].found.begin(), s.parts[k].found.end());
-  }
+      s.counters.*counter += part.counters().*counter;
   if (s.elements) s.elements->name_bodies(contacts);
+}
+
+/// Each part's contacts by whoever has found them.
+void ContactDetector::State::put_together(std::vector<ContactPoint>& contacts) {
+  size_t count = 0;
+  for (DetectionPart& part : parts)
+    part.first_found = std::exchange(count, count + part.found.size());
+  if (count > contacts.capacity()) contacts.reserve(count + count / 8);  // room for later steps
+  contacts.resize(count);
+  run_parts(team, static_cast<int>(parts.size()), [&](int k) {
+    std::ranges::copy(parts[k].found, contacts.begin() + static_cast<long>(parts[k].first_found));
+  });
 }
 
 void ContactDetector::State::check(std::span<const Pose> poses,
@@ -211,33 +220,51 @@ size_t nearest(std::span<const ContactPoint> candidates, std::span<const Contact
   return distance < std::numeric_limits<double>::infinity() ? best : best_any;
 }
 
+/// Adds the impulses of a pair's old points to those of its new ones.
+void carry_pair(std::span<const ContactPoint> old_pair, std::span<const Vec3> impulses,
+                std::span<const ContactPoint> new_pair, Vec3* carried) {
+  size_t m = 0;  // both are sorted by feature: one merge
+  for (size_t i = 0; i < old_pair.size(); ++i) {
+    while (m < new_pair.size() && new_pair[m].feature < old_pair[i].feature) ++m;
+    const bool same = m < new_pair.size() && new_pair[m].feature == old_pair[i].feature;
+    carried[same ? m : nearest(new_pair, old_pair, old_pair[i].position)] += impulses[i];
+  }
+}
+
+/// Of the pairs of new points that begin in [begin, end).
+void carry_range(std::span<const ContactPoint> old_contacts, std::span<const Vec3> impulses,
+                 std::span<const ContactPoint> new_contacts, size_t begin, size_t end,
+                 std::vector<Vec3>& carried) {
+  size_t n = begin;
+  while (n > 0 && n < end && pair_of(new_contacts[n - 1]) == pair_of(new_contacts[n])) ++n;
+  if (n == end) return;
+  auto old = std::ranges::lower_bound(old_contacts, pair_of(new_contacts[n]), {}, pair_of);
+  for (size_t n_end = n; n < end; n = n_end) {
+    n_end = end_of_pair(new_contacts, n);
+    std::fill(carried.begin() + n, carried.begin() + n_end, Vec3::Zero());
+    const auto pair = pair_of(new_contacts[n]);
+    while (old != old_contacts.end() && pair_of(*old) < pair) ++old;
+    if (old == old_contacts.end() || pair_of(*old) != pair) continue;
+    const size_t o = old - old_contacts.begin(), count = end_of_pair(old_contacts, o) - o;
+    carry_pair(old_contacts.subspan(o, count), impulses.subspan(o, count),
+               new_contacts.subspan(n, n_end - n), &carried[n]);
+    old += count;
+  }
+}
+
 }  // namespace
 
 void carry_impulses(std::span<const ContactPoint> old_contacts, std::span<const Vec3> old_impulses,
-                    std::span<const ContactPoint> new_contacts, std::vector<Vec3>& carried) {
-  carried.assign(new_contacts.size(), Vec3::Zero());
+                    std::span<const ContactPoint> new_contacts, std::vector<Vec3>& carried,
+                    WorkerTeam* team) {
   // Both lists are sorted by pair and feature. An impulse goes to the point with its
   // key, and that of a point that is gone to another point of its pair: what a pair
   // carries is kept while it touches.
-  size_t o = 0, n = 0;
-  while (o < old_contacts.size() && n < new_contacts.size()) {
-    if (pair_of(old_contacts[o]) != pair_of(new_contacts[n])) {
-      ++(pair_of(old_contacts[o]) < pair_of(new_contacts[n]) ? o : n);
-      continue;
-    }
-    const size_t o_end = end_of_pair(old_contacts, o), n_end = end_of_pair(new_contacts, n);
-    const auto old_pair = old_contacts.subspan(o, o_end - o),
-               new_pair = new_contacts.subspan(n, n_end - n);
-    size_t m = n;  // both are sorted by feature: one merge
-    for (size_t i = o; i < o_end; ++i) {
-      while (m < n_end && new_contacts[m].feature < old_contacts[i].feature) ++m;
-      const bool same = m < n_end && new_contacts[m].feature == old_contacts[i].feature;
-      const size_t to = same ? m : n + nearest(new_pair, old_pair, old_contacts[i].position);
-      carried[to] += old_impulses[i];
-    }
-    o = o_end;
-    n = n_end;
-  }
+  const int count = static_cast<int>(new_contacts.size());
+  carried.resize(new_contacts.size());
+  run_ranges(team, count, /*together=*/256, [&](int begin, int end) {
+    carry_range(old_contacts, old_impulses, new_contacts, begin, end, carried);
+  });
 }
 
 }  // namespace ballast

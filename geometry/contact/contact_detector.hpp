@@ -51,8 +51,9 @@ class ContactDetector {
 /// impulse of a point whose key has gone goes to the nearest unmatched new point of the same pair,
 /// or to the nearest of all if every one is matched. A pair that stays thus keeps its sum; a pair
 /// that has gone loses its impulse. `carried` is resized to the new contacts; points without a past
-/// get zero. No allocation once grown.
+/// get zero. No allocation once grown. `team` shares the work; null: the caller alone.
 void carry_impulses(std::span<const ContactPoint> old_contacts, std::span<const Vec3> old_impulses,
-                    std::span<const ContactPoint> new_contacts, std::vector<Vec3>& carried);
+                    std::span<const ContactPoint> new_contacts, std::vector<Vec3>& carried,
+                    WorkerTeam* team = nullptr);
 
 }  // namespace ballast

@@ -33,7 +33,7 @@ void DetectedBodies::take(std::span<const Pose> new_poses, std::span<const doubl
   poses = new_poses;
   reach = new_reach;
   if (previous_.empty()) previous_.assign(poses.begin(), poses.end());
-  run_each(team, count(), /*together=*/256, [&](int i) {
+  run_each(team, count(), /*together=*/64, [&](int i) {
     rotations[i] = poses[i].rotation.toRotationMatrix();
     // Motion summed up step by step: of two times, the difference of the sums bounds the motion
     // between.

@@ -68,6 +68,7 @@ class DetectionPart {
   /// Of the last detect().
   const DetectionCounters& counters() const { return counters_; }
   std::vector<ContactPoint> found;  ///< a place for its contacts, for the caller's use
+  size_t first_found = 0;           ///< where they stand among all
 
  private:
   void choose_pairs(const BroadPhase& broad_phase);

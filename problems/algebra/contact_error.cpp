@@ -296,20 +296,20 @@ double largest_eigenvalue(const Eigen::Matrix3d& w) {
 void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
                                              const std::vector<int>& row_begin, const Impulses& r,
                                              bool masses_are_known) {
-  // Each thread adds up what a share of the bodies gets, in the order of the contacts.
+  if (!masses_are_known && !masses_.are_of(dynamics)) masses_.keep(dynamics);
   const int bodies = dynamics.body_count();
   hr_.resize(dynamics.dof_count());
+  v_.resize(hr_.size());
+  // Each thread adds up what a share of the bodies gets, in the order of the contacts.
   run_ranges(team_, bodies, /*together=*/1 + bodies / size_of(team_), [&](int begin, int end) {
     contact_to_body_impulse(dynamics, row_begin, r, begin, end, hr_);
-  });
-  if (!masses_are_known && !masses_.are_of(dynamics)) masses_.keep(dynamics);
-  // v = v_free + M^-1 H^T r
-  v_.resize(hr_.size());
-  run_each(team_, bodies, /*together=*/256, [&](int b) {
-    const auto rows = Eigen::seqN(dynamics.dof_begin[b], dynamics.body_dofs(b));
-    v_(rows) = hr_(rows);
-    masses_.roots()[b].solve(v_.data() + dynamics.dof_begin[b]);
-    v_(rows) += dynamics.v_free(rows);
+    // v = v_free + M^-1 H^T r
+    for (int b = begin; b < end; ++b) {
+      const auto rows = Eigen::seqN(dynamics.dof_begin[b], dynamics.body_dofs(b));
+      v_(rows) = hr_(rows);
+      masses_.roots()[b].solve(v_.data() + dynamics.dof_begin[b]);
+      v_(rows) += dynamics.v_free(rows);
+    }
   });
 }
 

@@ -63,7 +63,7 @@ void ProblemAssembler::for_contacts(const Task& task) const {
 
 template <class Task>
 void ProblemAssembler::for_free_bodies(const Task& task) const {
-  run_each(team_, static_cast<int>(sides_.size()), /*together=*/256, [&](int b) {
+  run_each(team_, static_cast<int>(sides_.size()), /*together=*/64, [&](int b) {
     if (problem_body_[b] >= 0) task(b, *sides_[b].freedom);
   });
 }

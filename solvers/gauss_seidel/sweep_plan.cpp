@@ -25,7 +25,7 @@ void SweepPlan::prepare(const FrictionProblem& problem) {
   opening_.resize(problem.contact_count());
   // To find the slabs is a walk from body to body.
   run_ranges(
-      team_, problem.contact_count(), /*together=*/1024,
+      team_, problem.contact_count(), /*together=*/128,
       [&](int begin, int end) { find_openings(problem, begin, end); },
       [&] { find_slabs(problem.dynamics); });
   order(problem);

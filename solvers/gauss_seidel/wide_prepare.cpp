@@ -114,7 +114,7 @@ void WideSweep::place_bodies(const DynamicsForm& dynamics) {
 bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
   const int count = static_cast<int>(parts_.size());
   if (groupings_.size() < parts_.size()) groupings_.resize(parts_.size());
-  run_parts(team_, count, [&](int k) { parts_[k].is_usual = group_part(dynamics, k); });
+  for_all_parts([&](int k) { parts_[k].is_usual = group_part(dynamics, k); });
   contacts_ = 0;
   int groups = 0, walls = 0;
   struct {
@@ -204,7 +204,7 @@ bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
 
 /// Every thread makes those of its share of the parts.
 bool WideSweep::make_records(const FrictionProblem& problem) {
-  run_parts(team_, static_cast<int>(parts_.size()), [&](int number) {
+  for_all_parts([&](int number) {
     Part& part = parts_[number];
     const Grouping& grouping = groupings_[number];
     for_kinds(
@@ -286,7 +286,7 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
 void WideSweep::free_bodies(const DynamicsForm& dynamics) {
   free_.assign(rows_, {});
   exact_.bodies.assign(rows_, {});
-  run_each(team_, dynamics.body_count(), /*together=*/256, [&](int b) {
+  run_each(team_, dynamics.body_count(), /*together=*/64, [&](int b) {
     // Grains keep their velocity v [m/s] in a group's coordinates; L^T is taken of the spin alone.
     double* w = free_[row_of_body_[b]].w;
     const double* v = dynamics.v_free.data() + dynamics.dof_begin[b];

@@ -118,7 +118,7 @@ void WideSweep::fetch_shared(const State<Number>& state, const Part& interface) 
 void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
   // What nothing moves is in no group.
   r.setZero(problem.row_count());
-  run_parts(team_, static_cast<int>(parts_.size()), [&](int part) {
+  for_all_parts([&](int part) {
     for_kinds(
         [&](const auto& kind, const Range& range) {
           for (int g = range.begin; g < range.begin + range.count; ++g) {

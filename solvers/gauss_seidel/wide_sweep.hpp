@@ -129,6 +129,15 @@ class WideSweep final : public ContactSweep {
       task(interfaces[k]);
     });
   }
+  /// Calls task(number) for all parts, a slab with the interface behind it: each thread has the
+  /// same parts as in for_parts().
+  template <typename Task>
+  void for_all_parts(const Task& task) const {
+    run_parts(team_, plan_.slabs(), [&](int slab) {
+      task(slab);
+      if (slab + 1 < plan_.slabs()) task(plan_.slabs() + slab);
+    });
+  }
   /// Calls task(parts) for two of `parts` at a time, or for one where threads would wait for work.
   template <typename Task>
   void for_pairs(std::span<Part> parts, const Task& task) {

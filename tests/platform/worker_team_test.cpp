@@ -34,6 +34,30 @@ TEST_CASE("every part is done once in every task, by whatever team") {
   CHECK(visits(nullptr, 17, 3) == std::vector<int>(17, 3));
 }
 
+TEST_CASE("members have parts that follow each other; only the caller takes those of others") {
+  for (const int threads : {2, 3, 5}) {
+    WorkerTeam team;
+    team.resize(threads);
+    for (const int parts : {2, 7, 64}) {
+      std::vector<std::thread::id> by(static_cast<size_t>(parts));
+      for (int round = 0; round < 200; ++round) {
+        team.run(parts, [&](int part) {
+          by[static_cast<size_t>(part)] = std::this_thread::get_id();
+          if (part == 0) std::this_thread::yield();  // now and then the others are in time
+        });
+        // A worker's parts lie within one share.
+        for (int a = 0; a < parts; ++a)
+          for (int b = a + 1; b < parts; ++b) {
+            const auto thread = by[static_cast<size_t>(a)];
+            if (thread != by[static_cast<size_t>(b)] || thread == std::this_thread::get_id())
+              continue;
+            REQUIRE(b - a < (parts + threads - 1) / threads);
+          }
+      }
+    }
+  }
+}
+
 TEST_CASE("ranges cover their numbers once, and other work is done beside them") {
   for (const int threads : {0, 1, 3}) {
     WorkerTeam team;
@@ -41,7 +65,7 @@ TEST_CASE("ranges cover their numbers once, and other work is done beside them")
     WorkerTeam* const some = threads == 0 ? nullptr : &team;
     for (const int count : {0, 1, 7, 8, 9}) {
       std::vector<int> visits(static_cast<size_t>(count));
-      int first = 0, second = 0;
+      std::atomic<int> first = 0, second = 0;
       run_ranges(
           some, count, 4,
           [&](int begin, int end) {

@@ -357,6 +357,26 @@ TEST_CASE("same contacts, same impulses, bit by bit; nothing to nothing") {
   CHECK(carried.empty());
 }
 
+TEST_CASE("a team carries as the caller alone does, pairs across its ranges too") {
+  Random random(5);
+  WorkerTeam team;
+  team.resize(3);
+  for (const int features : {2, 9}) {
+    const auto old_contacts = random_contacts(random, 1500, features);
+    const auto new_contacts = random_contacts(random, 1400, features);
+    const auto impulses = random_impulses(random, old_contacts.size());
+    std::vector<Vec3> alone, shared;
+    carry_impulses(old_contacts, impulses, new_contacts, alone);
+    carry_impulses(old_contacts, impulses, new_contacts, shared, &team);
+    CHECK(shared == alone);
+    const auto expected = carried_by_definition(old_contacts, impulses, new_contacts);
+    double off = 0.0;
+    for (size_t i = 0; i < expected.size(); ++i)
+      off = std::max(off, (alone[i] - expected[i]).norm());
+    CHECK(off <= 1e-12);
+  }
+}
+
 TEST_CASE("a renamed point hands over to its nearest newcomer") {
   const Vec3 n = Vec3::UnitZ();
   const std::vector<ContactPoint> old_contacts{{0, 1, 10, n, Vec3(0, 0, 0), 0.0},
