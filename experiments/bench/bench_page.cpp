@@ -292,7 +292,7 @@ void measure_page(const BenchAll& options, std::string_view text) {
   const BenchPage page = read_bench_page(text);
   std::map<std::string, std::string> kept;
   if (!options.rows.empty()) kept = read_rows(options.rows);
-  require_own_folder(options.output, {"measured"});
+  require_own_folder(options.output, {"measured", "packings"});
   create_folder(options.output / "measured");
   fs::current_path(options.output);
   if (!options.rows.empty()) return write_page(page, kept);

@@ -11,7 +11,6 @@
 #include "problems/algebra/delassus.hpp"
 
 namespace ballast {
-namespace {
 
 /// What the judge asks of each contact, for so many side by side: number k of each in place k of
 /// every array. They are a share of the work, and stay in the first cache between the passes.
@@ -52,12 +51,14 @@ struct JudgeBlock {
   double outside[size];     ///< |r - P_K(r)| [N s]
   double work[size];        ///< |r . (u + mu|u_T|n)| [J]
   double unbalanced[size];  ///< the same as a velocity [m/s]
+  double free_square[size], impulse_square[size], velocity_square[size];  ///< |q|^2, |r|^2, |u|^2
+  double power[size];                                                     ///< r . u [J]
 };
+
+namespace {
 
 // The measures of a block, with the operations of the functions for one contact (friction_cone.hpp)
 // in their order: the same bits.
-
-#define BALLAST_IN_LOOP [[gnu::always_inline]] inline
 
 struct Triple {
   double n, t, s;
@@ -127,6 +128,10 @@ BALLAST_FOR_EACH_CPU void find_measures(JudgeBlock& b, int places) {
     b.map_square[k] = dot(map, map);
     b.impulse[k] = impulse;
     b.needed[k] = rho * norm(q);
+    b.free_square[k] = dot(q, q);
+    b.impulse_square[k] = dot(r, r);
+    b.velocity_square[k] = dot(u, u);
+    b.power[k] = dot(r, u);
     // The parts of the law.
     b.approach[k] = 0.0 < -u.n ? -u.n : 0.0;
     b.outside[k] = norm(less_projected(r, r, mu));
@@ -228,8 +233,7 @@ bool is_usual(const FrictionProblem& problem, const std::vector<MassRoot>& roots
 }
 
 BALLAST_FOR_EACH_CPU void look_at_usual(const FrictionProblem& problem, const MassRoot* roots,
-                                        const double* v, int c, double* q, double* u,
-                                        JudgeBlock& to, int k) {
+                                        const double* v, int c, JudgeBlock& to, int k) {
   const DynamicsForm& dynamics = problem.dynamics;
   const double* bias = dynamics.bias.data() + problem.row_begin[c];
   RowSums sums;
@@ -242,8 +246,8 @@ BALLAST_FOR_EACH_CPU void look_at_usual(const FrictionProblem& problem, const Ma
     block += 3 * MassRoot::max_dofs;
   }
   for (int i = 0; i < 3; ++i) {
-    q[i] = sums.q[i];
-    u[i] = sums.u[i];
+    to.q[i][k] = sums.q[i];
+    to.u[i][k] = sums.u[i];
   }
   to.nn[k] = sums.squares[0];
   to.tt[k] = sums.squares[1];
@@ -253,38 +257,11 @@ BALLAST_FOR_EACH_CPU void look_at_usual(const FrictionProblem& problem, const Ma
   to.sn[k] = sums.mixed[2];
 }
 
-/// Of contacts begin <= c < end: their rows of q = bias + H v_free and u = bias + H v [m/s], which
-/// have their sizes, and W_cc in the first places of the block, in one pass over the rows H.
-/// `roots`: of the masses. The same bits as by body_to_contact_velocity() and delassus_block().
-void look_at_rows(const FrictionProblem& problem, const std::vector<MassRoot>& roots,
-                  const Eigen::VectorXd& v, int begin, int end, Eigen::VectorXd& q,
-                  Eigen::VectorXd& u, JudgeBlock& block) {
-  const DynamicsForm& dynamics = problem.dynamics;
-  for (int c = begin; c < end; ++c) {
-    const int first = problem.row_begin[c];
-    if (is_usual(problem, roots, c)) {
-      look_at_usual(problem, roots.data(), v.data(), c, q.data() + first, u.data() + first, block,
-                    c - begin);
-      continue;
-    }
-    body_to_contact_velocity(dynamics, problem.row_begin, dynamics.v_free, c, c + 1, q);
-    body_to_contact_velocity(dynamics, problem.row_begin, v, c, c + 1, u);
-    block.take(c - begin, delassus_block(problem, roots, c));
-  }
-}
-
-/// Contacts begin <= c < end as the first places of a block, without W_cc.
-void lay_out(const FrictionProblem& problem, const Impulses& r, const Eigen::VectorXd& u,
-             const Eigen::VectorXd& q, int begin, int end, JudgeBlock& block) {
-  for (int c = begin; c < end; ++c) {
-    const int k = c - begin, first = problem.row_begin[c], rows = problem.contact_rows(c);
-    for (int i = 0; i < 3; ++i) {
-      block.r[i][k] = i < rows ? r[first + i] : 0.0;
-      block.u[i][k] = i < rows ? u[first + i] : 0.0;
-      block.q[i][k] = i < rows ? q[first + i] : 0.0;
-    }
-    block.mu[k] = problem.friction[c];
-  }
+/// A contact's rows of a vector over all rows as place k; those that it has not are zero.
+void take_rows(const FrictionProblem& problem, const Eigen::VectorXd& x, int c, int k,
+               double (&to)[3][JudgeBlock::size]) {
+  const int first = problem.row_begin[c], rows = problem.contact_rows(c);
+  for (int i = 0; i < 3; ++i) to[i][k] = i < rows ? x[first + i] : 0.0;
 }
 
 }  // namespace
@@ -313,16 +290,33 @@ void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
   });
 }
 
+/// Its rows of q = bias + H v_free and u = bias + H v [m/s] and W_cc in place k: where the bodies
+/// are rigid in one pass over the rows H, with the same bits as otherwise.
+void ContactJudge::look_at(const FrictionProblem& problem, int c, int k, JudgeBlock& block) {
+  const DynamicsForm& dynamics = problem.dynamics;
+  const std::vector<MassRoot>& roots = masses_.roots();
+  if (problem.has_dynamics && is_usual(problem, roots, c))
+    return look_at_usual(problem, roots.data(), v_.data(), c, block, k);
+  if (problem.has_dynamics) {
+    body_to_contact_velocity(dynamics, problem.row_begin, dynamics.v_free, c, c + 1, q_);
+    body_to_contact_velocity(dynamics, problem.row_begin, v_, c, c + 1, u_);
+  }
+  take_rows(problem, q_, c, k, block.q);
+  take_rows(problem, u_, c, k, block.u);
+  block.take(k, problem.has_dynamics ? delassus_block(problem, roots, c) : diagonal_[c]);
+}
+
 ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem, const Impulses& r,
                                                  int begin, int end) {
   JudgeBlock block;
   const int contacts = end - begin, places = JudgeBlock::places(contacts);
   for (int k = contacts; k < places; ++k) block.clear(k);
-  if (problem.has_dynamics)
-    look_at_rows(problem, masses_.roots(), v_, begin, end, q_, u_, block);
-  else
-    for (int c = begin; c < end; ++c) block.take(c - begin, diagonal_[c]);
-  lay_out(problem, r, u_, q_, begin, end, block);
+  for (int c = begin; c < end; ++c) {
+    const int k = c - begin;
+    take_rows(problem, r, c, k, block.r);
+    block.mu[k] = problem.friction[c];
+    look_at(problem, c, k, block);
+  }
   find_scales(block, places);
   find_measures(block, places);
   Share share;
@@ -347,11 +341,18 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
     share.complementarity_rms += unbalanced * unbalanced;
     // The same in the file's units, and Siconos' measure.
     share.fclib += block.map_square[k];
+    share.free_square += block.free_square[k];
+    share.impulse_square += block.impulse_square[k];
+    share.velocity_square += block.velocity_square[k];
+    share.power += block.power[k];
     share.largest_impulse = std::max(share.largest_impulse, block.impulse[k]);
     share.cone_violation = std::max(share.cone_violation, block.outside[k]);
     share.min_normal_velocity = std::min(share.min_normal_velocity, block.u[0][k]);
     share.complementarity = std::max(share.complementarity, block.work[k]);
   }
+  if (problem.has_dynamics)
+    for (int i = problem.row_begin[begin]; i < problem.row_begin[end]; ++i)
+      share.power -= r[i] * problem.dynamics.bias[i];
   return share;
 }
 
@@ -362,6 +363,9 @@ ContactJudge::Share ContactJudge::gather(int contacts) const {
   for (const Share& share : shares_) {
     for (const auto sum : squares) all.*sum += share.*sum;
     for (const auto most : largest) all.*most = std::max(all.*most, share.*most);
+    for (const auto sum : {&Share::free_square, &Share::impulse_square, &Share::velocity_square})
+      all.*sum += share.*sum;
+    all.power += share.power;
     all.counted += share.counted;
     if (share.worst_contact >= 0 &&
         (all.worst_contact < 0 || share.natural_map_max > all.natural_map_max)) {
@@ -385,8 +389,8 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   const int contacts = problem.contact_count();
   if (problem.has_dynamics)
     recompute_body_velocities(problem.dynamics, problem.row_begin, r, masses_are_known);
-  // Workspaces, and for a stored W the whole of u and q.
   if (contacts == 0) return {};
+  // For a stored W the whole of u and q, else places for contacts that are not usual.
   if (problem.has_dynamics) {
     q_.resize(problem.row_count());
     u_.resize(problem.row_count());
@@ -397,34 +401,33 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   }
   // Cut in the same places whoever works.
   shares_.resize((contacts + JudgeBlock::size - 1) / JudgeBlock::size);
-  // Every share: for the dynamics form its rows of u and q and its W_cc, then its measures.
-  run_ranges(team_, contacts, JudgeBlock::size, [&](int begin, int end) {
-    shares_[begin / JudgeBlock::size] = judge_contacts(problem, r, begin, end);
-  });
-  // Sums over all rows, each by one thread: they are added in the same order whoever works.
+  double residual = 0.0;
+  run_ranges(
+      team_, contacts, JudgeBlock::size,
+      [&](int begin, int end) {
+        shares_[begin / JudgeBlock::size] = judge_contacts(problem, r, begin, end);
+      },
+      [&] {
+        if (problem.has_dynamics)
+          residual = momentum_residual(problem.dynamics, masses_.roots(), v_, hr_);
+      });
   Share error = gather(contacts);
-  double free_norm = 0.0, impulse_norm = 0.0, velocity_norm = 0.0;
-  bool are_finite[2] = {};
-  run_parts(team_, 4, [&](int part) {
-    if (part == 0) free_norm = q_.norm(), are_finite[0] = r.allFinite();
-    if (part == 1) impulse_norm = r.norm(), are_finite[1] = u_.allFinite();
-    if (part == 2) velocity_norm = u_.norm(), error.power = r.dot(u_);
-    if (part == 3 && problem.has_dynamics)
-      error.momentum_residual = momentum_residual(problem.dynamics, masses_.roots(), v_, hr_);
-  });
-  if (!are_finite[0] || !are_finite[1]) return infinite_error();
+  error.momentum_residual = residual;
   constexpr double much = 1e6;  // before that nobody asks about momenta
   double needed = error.impulse_scale;
   if (problem.has_dynamics && error.largest_impulse > much * needed)
     needed = std::max(needed, stopping_impulse(problem.dynamics, hr_));
   error.growth = needed > 0.0 ? error.largest_impulse / needed : 0.0;
   // Siconos' measure, the scale of velocities, the power.
+  const double free_norm = std::sqrt(error.free_square),
+               impulse_norm = std::sqrt(error.impulse_square),
+               velocity_norm = std::sqrt(error.velocity_square);
   const double scale = std::max({free_norm, impulse_norm, velocity_norm});
   if (scale > rounding) error.fclib /= scale;
-  error.velocity_scale = free_norm / std::sqrt(static_cast<double>(q_.size()));
-  if (problem.has_dynamics) error.power -= r.dot(problem.dynamics.bias);
-  // Sums of squares that overflow, or a scale that does.
-  if (!std::isfinite(error.natural_map_rms + error.approach_rms + error.cone_rms + scale))
+  error.velocity_scale = free_norm / std::sqrt(static_cast<double>(problem.row_count()));
+  // Numbers that are not finite, or sums of squares that overflow.
+  if (!std::isfinite(error.natural_map_rms + error.approach_rms + error.cone_rms + free_norm +
+                     impulse_norm + velocity_norm))
     return infinite_error();
   return error;
 }

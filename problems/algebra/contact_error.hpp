@@ -58,6 +58,8 @@ struct ContactError {
   }
 };
 
+struct JudgeBlock;
+
 /// Judges with its own workspace, so that a run can call it every step without allocating.
 class ContactJudge {
  public:
@@ -93,10 +95,12 @@ class ContactJudge {
   struct Share : ContactError {
     int counted = 0;  ///< contacts in natural_map_rms
     double largest_impulse = 0.0, impulse_scale = 0.0;
+    double free_square = 0.0, impulse_square = 0.0, velocity_square = 0.0;  ///< |q|^2, |r|^2, |u|^2
   };
 
   void recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                                  const Impulses& r, bool masses_are_known);
+  void look_at(const FrictionProblem& problem, int c, int k, JudgeBlock& block);
   Share judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin, int end);
   Share gather(int contacts) const;
 

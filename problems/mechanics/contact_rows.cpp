@@ -10,8 +10,6 @@
 namespace ballast {
 namespace {
 
-#define BALLAST_IN_LOOP [[gnu::always_inline]] inline
-
 struct Triple {
   double x, y, z;
 };

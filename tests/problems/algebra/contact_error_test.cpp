@@ -22,6 +22,7 @@ ContactError one_by_one(const FrictionProblem& p, const Impulses& r, const Eigen
   ContactError e;
   double needed = 0.0, largest = 0.0;
   int counted = 0;
+  double free_square = 0.0, impulse_square = 0.0, velocity_square = 0.0;
   e.min_normal_velocity = std::numeric_limits<double>::infinity();
   for (int c = 0; c < p.contact_count(); ++c) {
     const int first = p.row_begin[c], rows = p.contact_rows(c);
@@ -55,6 +56,10 @@ ContactError one_by_one(const FrictionProblem& p, const Impulses& r, const Eigen
     e.complementarity = std::max(e.complementarity, work);
     e.min_normal_velocity = std::min(e.min_normal_velocity, uc[0]);
     largest = std::max(largest, rc.norm());
+    free_square += qc.squaredNorm();
+    impulse_square += rc.squaredNorm();
+    velocity_square += uc.squaredNorm();
+    e.power += rc.dot(uc);
   }
   e.natural_map_rms = std::sqrt(e.natural_map_rms / counted);
   for (double* mean : {&e.approach_rms, &e.cone_rms, &e.complementarity_rms})
@@ -66,10 +71,10 @@ ContactError one_by_one(const FrictionProblem& p, const Impulses& r, const Eigen
                         momenta.segment(p.dynamics.dof_begin[b], p.dynamics.body_dofs(b)).norm());
   }
   e.growth = largest / needed;
-  e.fclib = std::sqrt(e.fclib) / std::max({q.norm(), r.norm(), u.norm()});
-  e.power = r.dot(u);
-  if (p.has_dynamics) e.power -= r.dot(p.dynamics.bias);
-  e.velocity_scale = q.norm() / std::sqrt(static_cast<double>(q.size()));
+  e.fclib =
+      std::sqrt(e.fclib) / std::sqrt(std::max({free_square, impulse_square, velocity_square}));
+  for (int i = 0; p.has_dynamics && i < p.row_count(); ++i) e.power -= r[i] * p.dynamics.bias[i];
+  e.velocity_scale = std::sqrt(free_square) / std::sqrt(static_cast<double>(q.size()));
   return e;
 }
 
