@@ -350,9 +350,6 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
     share.min_normal_velocity = std::min(share.min_normal_velocity, block.u[0][k]);
     share.complementarity = std::max(share.complementarity, block.work[k]);
   }
-  if (problem.has_dynamics)
-    for (int i = problem.row_begin[begin]; i < problem.row_begin[end]; ++i)
-      share.power -= r[i] * problem.dynamics.bias[i];
   return share;
 }
 
@@ -401,18 +398,20 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   }
   // Cut in the same places whoever works.
   shares_.resize((contacts + JudgeBlock::size - 1) / JudgeBlock::size);
-  double residual = 0.0;
+  double residual = 0.0, power = 0.0;
   run_ranges(
       team_, contacts, JudgeBlock::size,
       [&](int begin, int end) {
         shares_[begin / JudgeBlock::size] = judge_contacts(problem, r, begin, end);
       },
       [&] {
-        if (problem.has_dynamics)
-          residual = momentum_residual(problem.dynamics, masses_.roots(), v_, hr_);
+        if (!problem.has_dynamics) return;
+        residual = momentum_residual(problem.dynamics, masses_.roots(), v_, hr_);
+        power = hr_.dot(v_);  // r . (u - bias) = r . H v
       });
   Share error = gather(contacts);
   error.momentum_residual = residual;
+  if (problem.has_dynamics) error.power = power;
   constexpr double much = 1e6;  // before that nobody asks about momenta
   double needed = error.impulse_scale;
   if (problem.has_dynamics && error.largest_impulse > much * needed)

@@ -1,5 +1,6 @@
 #include "problems/algebra/friction_problem.hpp"
 
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <string>
 
 #include "platform/for_each_cpu.hpp"
+#include "platform/worker_team.hpp"
 #include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
@@ -355,7 +357,8 @@ void validate_masses(const DynamicsForm& dynamics) {
   for (int b = 0; b < bodies; ++b) validate_mass_block(dynamics, b);
 }
 
-void validate_dynamics(const FrictionProblem& problem) {
+/// `is_h_bad`: some entry of H is no number.
+void validate_dynamics(const FrictionProblem& problem, bool is_h_bad) {
   const DynamicsForm& dynamics = problem.dynamics;
   const int contacts = problem.contact_count(), bodies = dynamics.body_count();
   require_numbers("dynamics.v_free", dynamics.v_free, dynamics.dof_count(),
@@ -376,7 +379,8 @@ void validate_dynamics(const FrictionProblem& problem) {
       fail("dynamics.h_begin[", c + 1, "] = ", dynamics.h_begin[c + 1], ": the blocks of contact ",
            c, " must have ", entries, " entries");
   }
-  require_numbers("dynamics.h", dynamics.h, dynamics.h_begin.back(), "h_begin");
+  require_size("dynamics.h", dynamics.h.size(), dynamics.h_begin.back(), "h_begin");
+  if (is_h_bad) require_numbers("dynamics.h", dynamics.h, dynamics.h_begin.back(), "h_begin");
   require_numbers("dynamics.bias", dynamics.bias, problem.row_count(), "one entry per contact row");
 }
 
@@ -432,14 +436,18 @@ void validate_delassus(const FrictionProblem& problem) {
 
 }  // namespace
 
-void FrictionProblem::validate(KnownMasses* valid) const {
+void FrictionProblem::validate(KnownMasses* valid, WorkerTeam* team) const {
   validate_contacts(*this);
   if (has_dynamics) {
-    if (!valid || !valid->are_of(dynamics)) {
-      validate_masses(dynamics);
-      if (valid) valid->keep(dynamics);
-    }
-    validate_dynamics(*this);
+    std::atomic<bool> are_valid = false, is_h_bad = false;  // the masses; of H some entry
+    const auto look = [&](int begin, int end) {
+      if (is_any_too_large(dynamics.h.data() + begin, end - begin)) is_h_bad = true;
+    };
+    run_ranges(team, static_cast<int>(dynamics.h.size()), /*together=*/8192, look,
+               [&] { are_valid = valid && valid->are_of(dynamics); });
+    if (!are_valid) validate_masses(dynamics);
+    if (!are_valid && valid) valid->keep(dynamics);
+    validate_dynamics(*this, is_h_bad);
   }
   if (has_delassus) validate_delassus(*this);
   if (!has_dynamics && !has_delassus && contact_count() > 0)
@@ -464,15 +472,14 @@ bool KnownMasses::are_of(const DynamicsForm& dynamics) const {
     return false;
   const double* kept = mass_.data();
   std::uint64_t differing = 0;  // bits
-  const auto compare = [&differing](double x, double y) {
-    differing |= std::bit_cast<std::uint64_t>(x) ^ std::bit_cast<std::uint64_t>(y);
-  };
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
   for (int b = 0; b < dynamics.body_count(); ++b) {
     const double* block = dynamics.mass.data() + mass_begin_[b];
     const int dofs = roots_[b].dofs;
     for (int j = 0; j < dofs; ++j)
       for (int i = 0; i < dofs; ++i)
-        compare(block[j * dofs + i], i == j || !roots_[b].diagonal ? *kept++ : 0.0);
+        differing |=
+            bits(block[j * dofs + i]) ^ bits(i == j || !roots_[b].diagonal ? *kept++ : 0.0);
   }
   return differing == 0;
 }

@@ -103,9 +103,9 @@ struct FrictionProblem {
   /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range,
   /// an entry that is not finite or beyond largest_entry, mu < 0 or beyond largest_friction, a mass
   /// block that is not symmetric positive definite, a Delassus diagonal block whose symmetric part
-  /// is not positive semidefinite or smaller than the rest. O(entries). Masses are looked at only
-  /// if they are not `valid` already, and are kept there.
-  void validate(class KnownMasses* valid = nullptr) const;
+  /// is not positive semidefinite or smaller than the rest. O(entries), which `team` shares. Masses
+  /// are looked at only if they are not `valid` already, and are kept there.
+  void validate(class KnownMasses* valid = nullptr, class WorkerTeam* team = nullptr) const;
 };
 
 /// The roots of the bodies' masses, and of the masses what tells whether they are the same, bit by

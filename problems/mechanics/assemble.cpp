@@ -142,28 +142,36 @@ PairLaw ProblemAssembler::law_of(const ContactPoint& contact) const {
 /// Everything but numbers: who touches whom, with how many rows, and where its blocks stand.
 void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts) {
   DynamicsForm& dynamics = problem_.dynamics;
-  problem_.clear_contacts();
-  detected_.clear();
-  restitution_.clear();
-  int row = 0, entry = 0;
+  const auto set_size = [&](size_t count) {
+    for (std::vector<int>* begins : {&problem_.row_begin, &dynamics.h_begin})
+      begins->resize(count + 1);
+    for (std::vector<int>* list : {&detected_, &dynamics.body_a, &dynamics.body_b})
+      list->resize(count);
+    problem_.friction.resize(count);
+    restitution_.resize(highest_restitution_ > 0.0 ? count : 0);
+  };
+  set_size(contacts.size());
+  int count = 0, row = 0, entry = 0;
   for (size_t c = 0; c < contacts.size(); ++c) {
     const ContactPoint& contact = contacts[c];
     const auto [mu, e] = law_of(contact);
     // With restitution only points that touch are contacts: an open one has nothing to reflect.
     if (e > 0.0 && contact.gap > 0.0) continue;
-    detected_.push_back(static_cast<int>(c));
-    if (highest_restitution_ > 0.0) restitution_.push_back(e);
+    detected_[count] = static_cast<int>(c);
+    if (highest_restitution_ > 0.0) restitution_[count] = e;
     const Side &a = sides_[contact.body_a], &b = sides_[contact.body_b];
     // One row, the normal, without friction; with it two tangents besides.
     const int rows = mu > 0.0 ? 3 : 1;
     row += rows;
     entry += rows * (a.freedom->count() + b.freedom->count());
-    dynamics.h_begin.push_back(entry);
-    dynamics.body_a.push_back(problem_body_[contact.body_a]);
-    dynamics.body_b.push_back(problem_body_[contact.body_b]);
-    problem_.row_begin.push_back(row);
-    problem_.friction.push_back(mu);
+    dynamics.body_a[count] = problem_body_[contact.body_a];
+    dynamics.body_b[count] = problem_body_[contact.body_b];
+    problem_.friction[count] = mu;
+    ++count;
+    dynamics.h_begin[count] = entry;
+    problem_.row_begin[count] = row;
   }
+  set_size(count);
   dynamics.h.resize(entry);
   first_tangents_.resize(detected_.size());
 }

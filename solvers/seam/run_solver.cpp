@@ -117,7 +117,7 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
 
 SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impulses start,
                             const Budget& budget) {
-  problem.validate(&judge_.masses());
+  problem.validate(&judge_.masses(), team_);
   validate_start(problem, start);
   constexpr double much = 10.0;  // times the start: less is no growth
   const double much_larger = much * start.lpNorm<Eigen::Infinity>();

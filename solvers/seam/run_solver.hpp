@@ -39,8 +39,12 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
 /// Keeps the judge's workspace between calls.
 class SolverRunner {
  public:
-  /// Shares the judge's work (ContactJudge::use_team). Solvers have Solver::use_team.
-  void use_team(WorkerTeam* team) { judge_.use_team(team); }
+  /// Shares the validation's and the judge's work (ContactJudge::use_team). Solvers have
+  /// Solver::use_team.
+  void use_team(WorkerTeam* team) {
+    team_ = team;
+    judge_.use_team(team);
+  }
 
   /// Of the last run: what the judge found besides.
   const Eigen::VectorXd& body_velocity() const { return judge_.body_velocity(); }
@@ -59,6 +63,7 @@ class SolverRunner {
   SolverRun attempt(Solver& solver, const FrictionProblem& problem, Impulses start,
                     const Budget& left, bool prepares);
 
+  WorkerTeam* team_ = nullptr;
   ContactJudge judge_;
 };
 

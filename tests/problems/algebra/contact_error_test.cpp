@@ -73,7 +73,12 @@ ContactError one_by_one(const FrictionProblem& p, const Impulses& r, const Eigen
   e.growth = largest / needed;
   e.fclib =
       std::sqrt(e.fclib) / std::sqrt(std::max({free_square, impulse_square, velocity_square}));
-  for (int i = 0; p.has_dynamics && i < p.row_count(); ++i) e.power -= r[i] * p.dynamics.bias[i];
+  if (p.has_dynamics) {
+    Eigen::VectorXd v, impulse;
+    body_velocity(p.dynamics, p.row_begin, r, v);
+    contact_to_body_impulse(p.dynamics, p.row_begin, r, impulse);
+    e.power = impulse.dot(v);  // r . (u - bias)
+  }
   e.velocity_scale = std::sqrt(free_square) / std::sqrt(static_cast<double>(q.size()));
   return e;
 }
