@@ -122,8 +122,7 @@ void TimeStepper::detect(const MotionState& mid, std::vector<ContactPoint>& cont
 void TimeStepper::carry(const StepMemory& memory) {
   // After a step that ended by an exception contacts have no impulses.
   if (spec_.warm_start && memory.impulses.size() == old_contacts_.size())
-    carry_impulses(old_contacts_, memory.impulses, memory.contacts, carried_,
-                   team_.get());
+    carry_impulses(old_contacts_, memory.impulses, memory.contacts, carried_, team_.get());
   else
     carried_.assign(memory.contacts.size(), Vec3::Zero());
 }
