@@ -260,8 +260,8 @@ BALLAST_FOR_EACH_CPU void look_at_usual(const FrictionProblem& problem, const Ma
 /// A contact's rows of a vector over all rows as place k; those that it has not are zero.
 void take_rows(const FrictionProblem& problem, const Eigen::VectorXd& x, int c, int k,
                double (&to)[3][JudgeBlock::size]) {
-  const int first = problem.row_begin[c], rows = problem.contact_rows(c);
-  for (int i = 0; i < 3; ++i) to[i][k] = i < rows ? x[first + i] : 0.0;
+  const Eigen::Vector3d rows = rows_of_contact(problem, x, c);
+  for (int i = 0; i < 3; ++i) to[i][k] = rows[i];
 }
 
 }  // namespace
