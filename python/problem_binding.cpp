@@ -79,7 +79,6 @@ py::dict measures(const ContactError& error) {
   d["min_normal_velocity"] = error.min_normal_velocity;
   d["complementarity"] = error.complementarity;
   d["power"] = error.power;
-  d["momentum_residual"] = error.momentum_residual;
   d["finite"] = error.finite;
   return d;
 }

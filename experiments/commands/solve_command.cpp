@@ -1,5 +1,5 @@
-// Stored problems through one solver, with every measure of the judge; and Ballast as a solver
-// behind the protocol that it offers to others (docs/manual/external.md).
+// The commands solve (stored problems by one solver, with every measure of the judge) and answer
+// (Ballast as a solver behind the protocol that it offers to others, docs/manual/external.md).
 
 #include <algorithm>
 #include <filesystem>
@@ -33,7 +33,7 @@ struct SolveOptions {
   int max_iterations = 10000;
   double max_seconds = 1e30;
   bool json = false;
-  /// Of answers to write and to start from: a file, or a folder with one for each problem.
+  /// Where answers are written, and read to start from: a file, or a folder with one per problem.
   std::filesystem::path output, start;
 };
 
@@ -42,10 +42,10 @@ struct SolvedFile {
   int contacts = 0, rows = 0;
   double tolerance = 0.0;  ///< [m/s]
   SolverRun run = {};
-  /// Why nothing was solved: "unreadable", "no_start", "unsupported"; of a program "out_of_time",
-  /// "crashed"; or that the answer is "not_kept". Empty: it was.
+  /// The fault: "unreadable", "no_start", "unsupported"; of a program also "out_of_time",
+  /// "crashed"; "not_kept" where the answer could not be written. Empty where there is none.
   std::string refused = {};
-  std::string words = {};  ///< what came of it (explained()), or what is wrong
+  std::string words = {};  ///< the outcome (explained()), or what is wrong
 };
 
 /// One number of the table: its heading (the command's help says what it means), its JSON name.
@@ -68,21 +68,20 @@ std::vector<ShownMeasure> measures_of(const SolverRun& run) {
           {"min_uN", "min_normal_velocity", error.min_normal_velocity},
           {"compl", "complementarity", error.complementarity},
           {"power", "power", error.power},
-          {"momentum", "momentum_residual", error.momentum_residual},
           {"own", "own_residual", run.solved.own_residual},
           {"prepare_s", "prepare_seconds", run.prepare_seconds},
           {"solve_s", "solve_seconds", run.solve_seconds},
           {"startup_s", "startup_seconds", run.startup_seconds}};
 }
 
-/// Where the answer to a problem is: the path itself if that is an HDF5 file, which holds one.
+/// The file of the answer to a problem: `where` itself if that is an HDF5 file, which holds one.
 std::filesystem::path answer_of(const std::string& file, const std::filesystem::path& where) {
   const std::string extension = where.extension().string();
   if (extension == ".hdf5" || extension == ".h5") return where;
   return where / std::filesystem::path(file).filename().replace_extension(".hdf5");
 }
 
-/// Before anything is solved: every answer has a file of its own, where nothing is but an answer.
+/// Checks before any solve that every answer has a file of its own, new or an earlier answer.
 void require_place(const SolveOptions& options) {
   std::map<std::filesystem::path, std::string> answered;
   for (const std::string& file : options.files) {
@@ -110,7 +109,7 @@ void keep_answer(const FrictionProblem& problem, const SolvedFile& solved,
   write_solution(answer_of(solved.file, options.output), problem, stored);
 }
 
-/// `fault`: what it is called when this throws.
+/// `fault`: the name of the failure when this throws.
 SolvedFile solve_file(const std::string& file, const SolveOptions& options, SolverRunner& runner,
                       const char*& fault) {
   fault = "unreadable";
@@ -137,7 +136,7 @@ SolvedFile solve_file(const std::string& file, const SolveOptions& options, Solv
   return solved;
 }
 
-/// A file that cannot be read or taken is a row with its reason: the others go on.
+/// Solves a file. One that cannot be read or taken is a row with its reason; the others go on.
 SolvedFile solved_or_refused(const std::string& file, const SolveOptions& options,
                              SolverRunner& runner) {
   const auto refused = [&](const char* how, std::string why) {
@@ -194,8 +193,8 @@ nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options)
   return row;
 }
 
-/// Every file solved: ok. Otherwise one line, and time_limit when nothing but the clock was in the
-/// way.
+/// Returns ok when every file is solved. Otherwise prints one line, and returns time_limit where
+/// time limits are the only reason, else failure.
 ExitCode verdict(const std::vector<SolvedFile>& solved) {
   std::string failures;
   size_t count = 0;
@@ -213,7 +212,7 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
   return only_time ? ExitCode::time_limit : ExitCode::failure;
 }
 
-/// Throws std::invalid_argument unless it is one.
+/// The only solver of the list. Throws std::invalid_argument unless there is exactly one.
 ComparedSolver one_of(const std::vector<ComparedSolver>& solvers) {
   if (solvers.size() != 1)
     throw std::invalid_argument("expected one, there are " + std::to_string(solvers.size()));
@@ -222,7 +221,7 @@ ComparedSolver one_of(const std::vector<ComparedSolver>& solvers) {
 
 ComparedSolver backend_of(const std::string& name) { return one_of(parse_solvers(name)); }
 
-/// A program instead of a backend; empty: none.
+/// Uses a program instead of a backend; does nothing where `word` is empty.
 void use_program(SolveOptions& options, const std::string& word) {
   if (!word.empty()) options.solver = one_of(external_solvers({word}, {.memory_MB = 0.0}));
 }
@@ -262,7 +261,7 @@ struct AnswerOptions {
   bool serves = false;
 };
 
-/// What the request asks for, by one solver; the answer's clock runs while that works.
+/// Answers the request by one solver; the answer's clock runs while that works.
 ExternalAnswer answer_to(const ExternalRequest& request, const MakeSolver& make) {
   Budget budget{request.tolerance, request.max_iterations, request.max_seconds, true};
   std::optional<FclibStop> fclib;
@@ -293,7 +292,7 @@ void answer_file(const std::filesystem::path& problem, const std::filesystem::pa
   write_answer(answer, request, answer_to(request, make));
 }
 
-/// Until standard input ends.
+/// Answers requests until standard input ends.
 ExitCode serve(const AnswerOptions& options) {
   std::cout << "ready" << std::endl;
   for (std::string line; std::getline(std::cin, line);) {
@@ -323,30 +322,30 @@ Command solve_command() {
   const auto options = std::make_shared<SolveOptions>();
   return {"solve",
           "Solves stored problems and prints every measure of their errors",
-          {{"files", &options->files, "Problems: FCLIB .hdf5, Siconos .dat", required},
-           {"--solver", into(options->solver, backend_of, "pgs"), "As listed by ballast solvers"},
+          {{"files", &options->files, "Problem files: FCLIB .hdf5, .h5; Siconos .dat", required},
+           {"--solver", into(options->solver, backend_of, "pgs"), "A name from ballast solvers"},
            {"--external NAME=COMMAND",
             Parsed{"", [options](const std::string& word) { use_program(*options, word); }},
-            "Instead: a program that solves (docs/manual/external.md)", excludes("--solver")},
-           {"--tolerance", &options->tolerance, "Relative to the velocity scale", at_least(0)},
+            "Solves with your own program (docs/manual/external.md)", excludes("--solver")},
+           {"--tolerance", &options->tolerance, "Bound on the error / velocity scale", at_least(0)},
            {"--absolute", &options->absolute, "The tolerance is in m/s"},
            {"--max-iterations", &options->max_iterations, "Sweeps, Newton steps, ...", at_least(1)},
-           {"--max-seconds", &options->max_seconds, "Wall clock per problem", above(0)},
+           {"--max-seconds", &options->max_seconds, "Wall clock limit per problem [s]", above(0)},
            {"--output PATH", &options->output,
-            "Keep r, u and the measures: a file .hdf5, or a folder with one for each problem"},
-           {"--start PATH", &options->start, "Begin with the r of such a file or folder"},
-           {"--json", &options->json, "Rows as JSON instead of a table"}},
+            "Writes impulses, velocities and measures: a .hdf5 file, or a folder with one each"},
+           {"--start PATH", &options->start, "Starts from the impulses in such a file or folder"},
+           {"--json", &options->json, "Prints the rows as JSON instead of a table"}},
           [options] { return solve(*options); }};
 }
 
 Command answer_command() {
   const auto options = std::make_shared<AnswerOptions>();
   return {"answer",
-          "Solves one request of ballast compare --external, as other programs do",
-          {{"problem", &options->problem, "The request's file"},
-           {"answer", &options->answer, "The file to be written"},
-           {"--serve", &options->serves, "Requests as lines PROBLEM<tab>ANSWER on standard input"},
-           {"--solver", into(options->solver, backend_of, "auto"), "As listed by ballast solvers"}},
+          "Answers requests of ballast compare --external, as an external solver does",
+          {{"problem", &options->problem, "The request file to read"},
+           {"answer", &options->answer, "The answer file to write"},
+           {"--serve", &options->serves, "Reads lines PROBLEM<tab>ANSWER from standard input"},
+           {"--solver", into(options->solver, backend_of, "auto"), "A name from ballast solvers"}},
           [options] { return answer(*options); }};
 }
 

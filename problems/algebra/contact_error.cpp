@@ -12,21 +12,21 @@
 
 namespace ballast {
 
-/// What the judge asks of each contact, for so many side by side: number k of each in place k of
-/// every array. They are a share of the work, and stay in the first cache between the passes.
+/// The judge's numbers for up to `size` contacts side by side, number k of every array for contact
+/// k. A block is a share of the work and stays in the first cache between the passes.
 struct JudgeBlock {
   static constexpr int size = 64;
-  /// The places that are worked on for so many contacts: eights.
+  /// The number of places computed for so many contacts: a multiple of eight.
   static int places(int contacts) { return (contacts + 7) / 8 * 8; }
 
-  // What is given. The rows that a contact has not, and places without a contact, hold zeros.
+  // Input. Rows that a contact lacks and places without a contact hold zeros.
   alignas(64) double r[3][size];        ///< [N s]
   double u[3][size], q[3][size];        ///< [m/s]
   double nn[size], tn[size], sn[size];  ///< W_cc [1/kg]
   double tt[size], st[size], ss[size];
   double mu[size];
 
-  /// W_cc into place k, by its lower triangle.
+  /// Stores the lower triangle of W_cc in place k.
   void take(int k, const Eigen::Matrix3d& w) {
     nn[k] = w(0, 0);
     tn[k] = w(1, 0);
@@ -35,15 +35,15 @@ struct JudgeBlock {
     st[k] = w(2, 1);
     ss[k] = w(2, 2);
   }
-  /// Zeros into place k.
+  /// Fills place k with zeros.
   void clear(int k) {
     for (int i = 0; i < 3; ++i) r[i][k] = u[i][k] = q[i][k] = 0.0;
     mu[k] = nn[k] = tn[k] = sn[k] = tt[k] = st[k] = ss[k] = 0.0;
   }
 
-  // What is found.
+  // Output.
   double lambda[size];      ///< largest eigenvalue of W_cc [1/kg]
-  double scaled_map[size];  ///< scaled natural map [m/s]; says nothing where lambda = 0
+  double scaled_map[size];  ///< scaled natural map [m/s]; meaningless where lambda = 0
   double map_square[size];  ///< square of the natural map with rho = 1
   double impulse[size];     ///< |r| [N s]
   double needed[size];      ///< |q| / lambda [N s]; 0 where lambda = 0
@@ -57,8 +57,8 @@ struct JudgeBlock {
 
 namespace {
 
-// The measures of a block, with the operations of the functions for one contact (friction_cone.hpp)
-// in their order: the same bits.
+// The measures of a block. Operations and their order are those of the functions for one contact
+// (friction_cone.hpp), so that the bits are the same.
 
 struct Triple {
   double n, t, s;
@@ -122,7 +122,7 @@ BALLAST_FOR_EACH_CPU void find_measures(JudgeBlock& b, int places) {
     const double inverse = 1.0 / lambda, rho = lambda > 0.0 ? inverse : 0.0;
     const Triple modified{u.n + mu * tangential(u), u.t, u.s};
     const double impulse = norm(r), work = std::abs(dot(r, modified));
-    // The natural map, scaled and not; the size of impulses.
+    // The natural map, scaled and with rho = 1; the size of impulses.
     const Triple map = natural_map_of_modified(r, modified, mu, 1.0);
     b.scaled_map[k] = norm(natural_map_of_modified(r, modified, mu, inverse)) * lambda;
     b.map_square[k] = dot(map, map);
@@ -157,7 +157,7 @@ ContactError infinite_error() {
   ContactError error;
   for (const auto measure : squares) error.*measure = infinity;
   for (const auto measure : largest) error.*measure = infinity;
-  error.natural_map_max = error.growth = error.power = error.momentum_residual = infinity;
+  error.natural_map_max = error.growth = error.power = infinity;
   error.min_normal_velocity = -infinity;
   error.finite = false;
   return error;
@@ -176,36 +176,18 @@ double stopping_impulse(const DynamicsForm& dynamics, const Eigen::VectorXd& p) 
   return most;
 }
 
-/// max |M (v - v_free) - H^T r| with p = H^T r.
-double momentum_residual(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots,
-                         const Eigen::VectorXd& v, const Eigen::VectorXd& p) {
-  double worst = 0.0;
-  for (int b = 0; b < dynamics.body_count(); ++b) {
-    const int dofs = dynamics.body_dofs(b), first = dynamics.dof_begin[b];
-    const double* block = dynamics.mass.data() + dynamics.mass_begin[b];
-    for (int i = 0; i < dofs; ++i) {
-      double sum = -p[first + i];
-      const bool diagonal = roots[b].diagonal;  // then one entry of the row is not zero
-      for (int k = diagonal ? i : 0; k < (diagonal ? i + 1 : dofs); ++k)
-        sum += block[k * dofs + i] * (v[first + k] - dynamics.v_free[first + k]);
-      worst = std::max(worst, std::abs(sum));
-    }
-  }
-  return worst;
-}
-
-/// The three rows of a column of H side by side; the fourth place holds anything.
+/// The three rows of a column of H side by side; the fourth place is arbitrary.
 using Rows = double __attribute__((vector_size(32)));
 
-/// What one contact adds up, column by column of its two blocks.
+/// The sums of one contact over the columns of its two blocks.
 struct RowSums {
   Rows q, u;
   Rows squares = {};  // nn, tt, ss
   Rows mixed = {};    // tn, st, sn
 };
 
-/// Three rows on two rigid bodies whose mass is diagonal. The last contact's rows end with H, and a
-/// column of four would not.
+/// Returns whether the contact has three rows and rigid bodies of diagonal mass. False for the last
+/// one: four entries read from its last column of three would reach beyond H.
 bool is_usual(const FrictionProblem& problem, const std::vector<MassRoot>& roots, int c) {
   const DynamicsForm& dynamics = problem.dynamics;
   const auto is_grain = [&](int body) {
@@ -215,8 +197,8 @@ bool is_usual(const FrictionProblem& problem, const std::vector<MassRoot>& roots
          is_grain(dynamics.body_b[c]) && dynamics.h_begin[c + 1] < dynamics.h_begin.back();
 }
 
-/// In every row the operations of one contact's functions in their order. Always inline: a vector
-/// wider than the processor's is then no argument of a call.
+/// Operations and their order are in every row those of the functions for one contact. Always
+/// inlined, so that a vector wider than the processor's is never the argument of a call.
 [[gnu::always_inline]] inline void add_side(const double* block, const double* v_free,
                                             const double* v, const double* inverse, RowSums& sums) {
 #pragma GCC unroll 6
@@ -225,7 +207,7 @@ bool is_usual(const FrictionProblem& problem, const std::vector<MassRoot>& roots
     std::memcpy(&column, block + 3 * k, sizeof column);
     sums.q += column * v_free[k];
     sums.u += column * v[k];
-    // G = H L^-T, and W_cc = G G^T: each row with itself, and with the row after it.
+    // G = H L^-T, and W_cc = G G^T: the products of each row with itself and with the next.
     const Rows g = column * inverse[k];
     sums.squares += g * g;
     sums.mixed += g * __builtin_shufflevector(g, g, 1, 2, 0, 3);
@@ -257,7 +239,7 @@ BALLAST_FOR_EACH_CPU void look_at_usual(const FrictionProblem& problem, const Ma
   to.sn[k] = sums.mixed[2];
 }
 
-/// A contact's rows of a vector over all rows as place k; those that it has not are zero.
+/// Copies a contact's rows of a vector over all rows to place k; rows that it lacks are zero.
 void take_rows(const FrictionProblem& problem, const Eigen::VectorXd& x, int c, int k,
                double (&to)[3][JudgeBlock::size]) {
   const Eigen::Vector3d rows = rows_of_contact(problem, x, c);
@@ -277,7 +259,7 @@ void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
   const int bodies = dynamics.body_count();
   hr_.resize(dynamics.dof_count());
   v_.resize(hr_.size());
-  // Each thread adds up what a share of the bodies gets, in the order of the contacts.
+  // Each thread sums the impulses on a share of the bodies, in the order of the contacts.
   run_ranges(team_, bodies, /*together=*/1 + bodies / size_of(team_), [&](int begin, int end) {
     contact_to_body_impulse(dynamics, row_begin, r, begin, end, hr_);
     // v = v_free + M^-1 H^T r
@@ -290,8 +272,8 @@ void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
   });
 }
 
-/// Its rows of q = bias + H v_free and u = bias + H v [m/s] and W_cc in place k: where the bodies
-/// are rigid in one pass over the rows H, with the same bits as otherwise.
+/// Writes a contact's rows of q = bias + H v_free and u = bias + H v [m/s] and its W_cc to place k.
+/// For rigid bodies it does so in one pass over the rows of H, with the same bits.
 void ContactJudge::look_at(const FrictionProblem& problem, int c, int k, JudgeBlock& block) {
   const DynamicsForm& dynamics = problem.dynamics;
   const std::vector<MassRoot>& roots = masses_.roots();
@@ -339,7 +321,7 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
     share.approach_rms += approach * approach;
     share.cone_rms += outside * outside;
     share.complementarity_rms += unbalanced * unbalanced;
-    // The same in the file's units, and Siconos' measure.
+    // Siconos' measure, and the parts of the law in their own units.
     share.fclib += block.map_square[k];
     share.free_square += block.free_square[k];
     share.impulse_square += block.impulse_square[k];
@@ -353,7 +335,7 @@ ContactJudge::Share ContactJudge::judge_contacts(const FrictionProblem& problem,
   return share;
 }
 
-/// The shares together, in their order. `fclib` is not yet divided by its scale.
+/// Combines the shares in their order. `fclib` is not yet divided by its scale.
 ContactJudge::Share ContactJudge::gather(int contacts) const {
   Share all;
   all.min_normal_velocity = infinity;
@@ -387,7 +369,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
   if (problem.has_dynamics)
     recompute_body_velocities(problem.dynamics, problem.row_begin, r, masses_are_known);
   if (contacts == 0) return {};
-  // For a stored W the whole of u and q, else places for contacts that are not usual.
+  // A stored W needs all of u and q. Otherwise they hold the rows of contacts that are not usual.
   if (problem.has_dynamics) {
     q_.resize(problem.row_count());
     u_.resize(problem.row_count());
@@ -396,28 +378,25 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
     free_contact_velocity(problem, q_);
     contact_velocity(problem, r, u_);
   }
-  // Cut in the same places whoever works.
+  // The work is cut in the same places for any number of threads.
   shares_.resize((contacts + JudgeBlock::size - 1) / JudgeBlock::size);
-  double residual = 0.0, power = 0.0;
+  double power = 0.0;
   run_ranges(
       team_, contacts, JudgeBlock::size,
       [&](int begin, int end) {
         shares_[begin / JudgeBlock::size] = judge_contacts(problem, r, begin, end);
       },
       [&] {
-        if (!problem.has_dynamics) return;
-        residual = momentum_residual(problem.dynamics, masses_.roots(), v_, hr_);
-        power = hr_.dot(v_);  // r . (u - bias) = r . H v
+        if (problem.has_dynamics) power = hr_.dot(v_);  // r . (u - bias) = r . H v
       });
   Share error = gather(contacts);
-  error.momentum_residual = residual;
   if (problem.has_dynamics) error.power = power;
-  constexpr double much = 1e6;  // before that nobody asks about momenta
+  constexpr double much = 1e6;  // only beyond this growth do momenta matter
   double needed = error.impulse_scale;
   if (problem.has_dynamics && error.largest_impulse > much * needed)
     needed = std::max(needed, stopping_impulse(problem.dynamics, hr_));
   error.growth = needed > 0.0 ? error.largest_impulse / needed : 0.0;
-  // Siconos' measure, the scale of velocities, the power.
+  // Siconos' measure and the scale of velocities.
   const double free_norm = std::sqrt(error.free_square),
                impulse_norm = std::sqrt(error.impulse_square),
                velocity_norm = std::sqrt(error.velocity_square);
