@@ -1,4 +1,4 @@
-// How fast: kernels, whole steps, scaling; and two results side by side.
+// The command bench: times kernels, whole steps and scaling, and compares two results.
 
 #include <iostream>
 #include <memory>
@@ -12,7 +12,7 @@ namespace ballast {
 
 namespace {
 
-/// What is on the command lines; each subcommand has some of it.
+/// The values of the command lines; each subcommand has some of them.
 struct BenchRequest {
   std::string scene = "vibrated_box";
   std::vector<std::string> overrides;  ///< "dotted.key=value"
@@ -29,10 +29,10 @@ constexpr int most_count = 1'000'000'000;  // of steps, repetitions
 
 void say(const std::string& text) { std::cout << text << std::flush; }
 
-/// Before hours of measuring: results of several kinds may share a folder.
+/// Checks the folder before hours of measuring: results of several kinds may share one.
 void require_own_results(const BenchRequest& request, const std::string& kind) {
   const std::filesystem::path file = request.output / (kind + ".json");
-  if (is_there(file)) read_bench_result(file);  // says so where it is somebody's
+  if (is_there(file)) read_bench_result(file);  // throws where it is none of ours
   constexpr const char* ours = "\"measurements\": [";
   require_own_folder(
       request.output,
@@ -76,7 +76,7 @@ Measurements bench_scaling(const BenchRequest& request) {
   return measurements;
 }
 
-/// A subcommand that measures on a scene: what all of them have, then `more`.
+/// A subcommand that measures on a scene: it has the words common to all of them, then `more`.
 Command measuring(const char* name, const char* meaning,
                   const std::shared_ptr<BenchRequest>& request,
                   Measurements (*measure)(const BenchRequest&), const std::vector<Word>& more) {
@@ -101,19 +101,18 @@ Command kernels_command() {
   const auto request = std::make_shared<BenchRequest>();
   request->scene = "vibrated_box_small";
   KernelBenchOptions& kernels = request->kernels;
-  return measuring("kernels", "The inner loops of a step on their own", request, bench_kernels,
-                   {{"--filter", &kernels.filter, "A part of group/name"},
-                    {"--min-time", &kernels.min_time, "CPU seconds of a repetition", above(0)},
-                    {"--repeats", &kernels.repeats, "Repetitions", between(1, most_count)}});
+  return measuring("kernels", "Times each inner loop of a step alone", request, bench_kernels,
+                   {{"--filter", &kernels.filter, "Times kernels with this text in group/name"},
+                    {"--min-time", &kernels.min_time, "CPU time of one repetition [s]", above(0)},
+                    {"--repeats", &kernels.repeats, "Timed repetitions", between(1, most_count)}});
 }
 
 Command step_command() {
   const auto request = std::make_shared<BenchRequest>();
-  return measuring("step", "Whole steps by phase, from the deposited packing driven", request,
-                   bench_step,
-                   {{"--steps", &request->steps, "Steps", between(1, most_count)},
-                    {"--threads", &request->threads, "Threads of a step, separated by commas",
-                     between(1, 256)}});
+  return measuring(
+      "step", "Times whole steps of the driven box by phase, from its packing", request, bench_step,
+      {{"--steps", &request->steps, "Measured steps", between(1, most_count)},
+       {"--threads", &request->threads, "Numbers of threads, comma-separated", between(1, 256)}});
 }
 
 Command scaling_command() {
@@ -122,24 +121,25 @@ Command scaling_command() {
   scaling.grains = {1000, 10000, 100000};
   constexpr int most_grains = most_count / 10;
   return measuring(
-      "scaling", "Cost per grain of growing boxes of one shape, settled from tiles", request,
+      "scaling", "Measures time and memory per grain of growing boxes of one shape", request,
       bench_scaling,
       {{"--grains", &scaling.grains,
-        "Grains, separated by commas: each the nearest number of tiles", between(1, most_grains)},
-       {"--threads", &scaling.threads, "Threads of a step, separated by commas", between(1, 256)},
+        "Numbers of grains, comma-separated, rounded to multiples of the scene's",
+        between(1, most_grains)},
+       {"--threads", &scaling.threads, "Numbers of threads, comma-separated", between(1, 256)},
        {"--steps", &scaling.steps, "Measured steps", between(1, most_count)},
-       {"--warm-up", &scaling.warm_up, "Steps before them", between(1, most_count)}});
+       {"--warm-up", &scaling.warm_up, "Steps before the measured ones", between(1, most_count)}});
 }
 
 Command all_command() {
   const auto all = std::make_shared<BenchAll>();
   return {"all",
-          "Everything on the page of results, by its own commands, and the page anew: hours",
+          "Measures the numbers of docs/results.md and writes the page as results.md; takes hours",
           {{"--output DIR", &all->output, "Folder of the results"},
            {"--beside COMMAND", &all->beside,
-            "Another program's step, by turns with ours: its last word is milliseconds"},
-           {"--page FILE", &all->page, "A page of yours, written as experiments/bench/results.md"},
-           {"--rows FILE", &all->rows, "The page of these numbers.csv; nothing is measured"}},
+            "Command that prints another program's step time [ms] last; run in turn with ours"},
+           {"--page FILE", &all->page, "Your own page, written like experiments/bench/results.md"},
+           {"--rows FILE", &all->rows, "Writes the page from this numbers.csv; measures nothing"}},
           [all] { return bench_all(*all); }};
 }
 
@@ -149,9 +149,9 @@ Command diff_command() {
   };
   const auto files = std::make_shared<Files>();
   return {"diff",
-          "Two result files as a ratio table (Markdown)",
-          {{"A", &files->a, "A .json of ballast bench", required},
-           {"B", &files->b, "Another of the same kind", required}},
+          "Prints a Markdown table of the ratios B/A of two result files",
+          {{"A", &files->a, "A result of ballast bench (.json)", required},
+           {"B", &files->b, "Another result of the same kind", required}},
           [files] {
             const BenchResult a = read_bench_result(files->a), b = read_bench_result(files->b);
             if (a.kind != b.kind)
@@ -166,7 +166,7 @@ Command diff_command() {
 
 Command bench_command() {
   return {"bench",
-          "How fast: kernels, whole steps, scaling",
+          "Measures speed: kernels, whole steps, scaling with size",
           {},
           {},
           {kernels_command(), step_command(), scaling_command(), all_command(), diff_command()}};

@@ -17,7 +17,7 @@ namespace ballast {
 
 std::string help_file(const std::string& name);  // of experiments/commands/help
 
-// Each is defined in the file of its name, or of what it is about.
+// Each is defined in the file of its name or of its subject.
 Command run_command(), solve_command(), compare_command(), plan_command(), paper_command(),
     bench_command(), answer_command(), solvers_command(), scenes_command(), check_command(),
     export_command(), report_command(), view_command(), convert_command();
@@ -76,12 +76,12 @@ void print_failure(std::ostream& err, const std::string& what) {
 /// "--output" of "--output DIR".
 std::string option_name(const Word& word) { return word.name.substr(0, word.name.find(' ')); }
 
-/// "" and, of "--output= --quiet", what CLI11 takes instead are no names.
+/// The fault of "", and of the value that CLI11 takes from "--output= --quiet"; neither is a name.
 std::string names_something(const std::string& text) {
   return text.empty() || text.starts_with("--") ? "'" + text + "': expected a name" : "";
 }
 
-/// Tells CLI11 of one word.
+/// Adds one word to CLI11.
 void add_word(CLI::App& app, Word& word) {
   const std::string name = option_name(word);
   CLI::Option* option = nullptr;
@@ -102,12 +102,12 @@ void add_word(CLI::App& app, Word& word) {
     if (std::holds_alternative<std::string*>(word.value) ||
         std::holds_alternative<std::filesystem::path*>(word.value))
       option->check(names_something, "");
-    // what is empty or without a limit says nothing
+    // a default that is empty or without a limit is not shown
     for (const char* nothing : {"\"\"", "[]", "1e+30", "nan"})
       if (option->get_default_str() == nothing) option->default_str("");
   }
   if (name.size() < word.name.size()) option->type_name(word.name.substr(name.size() + 1));
-  // a list behind an option grows by one value each time; an argument takes all that follow
+  // a list option grows by one value each time; a list argument takes all that follow
   if (name.starts_with("--") && std::holds_alternative<std::vector<std::string>*>(word.value))
     option->take_all()->expected(1)->allow_extra_args(false);
   if (std::holds_alternative<std::vector<int>*>(word.value))
@@ -115,14 +115,14 @@ void add_word(CLI::App& app, Word& word) {
   for (const Rule& rule : word.rules) rule(*option);
 }
 
-/// Tells CLI11 of the command `path`, "compare merge"; when it is the one that is named, `chosen`
-/// is set.
+/// Adds the command `path` ("compare merge") to CLI11; `chosen` is set to it when the command line
+/// names it.
 void add_command(CLI::App& app, const std::string& path, Command& command, Command*& chosen) {
   CLI::App* added = app.add_subcommand(command.name, command.meaning);
   added->footer(help_text(path));  // else CLI11 hands down that of the command above
   for (Word& word : command.words) add_word(*added, word);
   for (Command& part : command.parts) add_command(*added, path + ' ' + part.name, part, chosen);
-  // A subcommand is called back before the command above it, which then has nothing to do.
+  // CLI11 calls a subcommand back before the command above it, which then has nothing to do.
   if (command.act)
     added->require_subcommand(0, 1)->callback([&command, &chosen] {
       if (!chosen) chosen = &command;
@@ -146,11 +146,11 @@ ExitCode carry_out(const Command& command) {
   return command.act();
 }
 
-/// The first word that is no command or option there, and what was probably meant; where all are
-/// known, what the parser found. Then whose --help says more.
+/// The first word that is no command or option there, with a suggestion; where all are known, the
+/// parser's message `found`. Ends with the command whose --help says more.
 std::string complaint(const CLI::App& program, int argc, const char* const* argv,
                       std::string found) {
-  // that it is a number has been checked
+  // a rule has already checked that it is a number
   if (const std::string cli = "Could not convert: "; found.starts_with(cli))
     found = found.substr(cli.size()) + " is not a whole number";
   const CLI::App* at = &program;

@@ -1,7 +1,6 @@
 #pragma once
-// The commands of the ballast program as data: which words each takes, where their values go, what
-// --help says of them, and what is done then. command.cpp reads a command line by these tables,
-// with CLI11.
+// The commands of the ballast program as data: which words each takes, where their values go, the
+// text of --help, and the action. command.cpp reads a command line by these tables, with CLI11.
 
 #include <filesystem>
 #include <functional>
@@ -20,26 +19,26 @@ class Option;
 
 namespace ballast {
 
-/// What a parsed command line wants done. Throws on failure; the exception's what() is the message.
+/// The action of a parsed command line. Throws on failure; the exception's what() is the message.
 using Action = std::function<ExitCode()>;
 
-/// The command line itself is wrong, in a way that only the command can see: exit code 2.
+/// The command line itself is wrong, in a way that only the command can detect: exit code 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What holds of a word besides its type. What breaks a rule is exit code 2.
+/// A condition on a word besides its type. A word that breaks it gives exit code 2.
 using Rule = std::function<void(CLI::Option&)>;
 extern const Rule required;
 Rule between(double low, double high);  ///< both included; NaN is beyond all bounds
 Rule above(double low);
 Rule at_least(double low);
-Rule excludes(const std::string& other);  ///< words further up
+Rule excludes(const std::string& other);  ///< `other` stands further up
 Rule needs(const std::string& other);
 
-/// A text of which something is made before the command acts, given or not. What `use` throws is
-/// said with the word's name.
+/// A text that `use` converts before the command acts, whether given or the default. An exception
+/// from `use` is reported with the word's name.
 struct Parsed {
   std::string text;
   std::function<void(const std::string&)> use;
@@ -62,11 +61,12 @@ struct Word {
         meaning(std::move(meaning_)),
         rules{rules_...} {}
 
-  /// "scene": an argument, known by its place. "--output DIR": an option, and what --help calls its
-  /// value.
+  /// "scene": an argument, known by its place. "--output DIR": an option, with the name of its
+  /// value in --help.
   std::string name;
-  /// Keeps the value; what is there before is the default. A bool is a switch, and "--no-..."
-  /// switches off. A list of texts takes all that come, one of numbers has commas between them.
+  /// Keeps the value; its initial content is the default. A bool is a switch, which "--no-..."
+  /// turns off. A list of texts takes all values that come, a list of numbers has commas between
+  /// them.
   Value value;
   std::string meaning;
   std::vector<Rule> rules;
@@ -76,17 +76,17 @@ struct Word {
 struct Command {
   std::string name, meaning;
   std::vector<Word> words;
-  /// Keeps alive what the values of `words` are in.
+  /// Keeps alive the object that the values of `words` point into.
   Action act;
   /// Its subcommands, one of which must be named where there is no `act`.
   std::vector<Command> parts = {};
 };
 
-/// All, in the order of --help, with their defaults. A new command is its function and a row there.
+/// All commands, in the order of --help, with defaults. A new one is its function and a row there.
 std::vector<Command> commands();
 
-/// What --help says after the options of "ballast", "run" or "compare merge": help/run.txt,
-/// help/compare_merge.txt, without its last line end; empty where there is no such file.
+/// The text of --help after the options of the command `path` ("ballast", "run", "compare merge"):
+/// help/run.txt, help/compare_merge.txt, without the last line end; empty where there is no file.
 std::string help_text(std::string path);
 
 /// The whole program: parses, acts, and turns every failure into one line "ballast: ..." on `err`

@@ -1,5 +1,5 @@
-// Backends on identical problems: rows, figures and a page; what a change did to them; several as
-// one; the collection of captured problems.
+// The command compare: runs backends on identical problems (rows, figures, a page), compares and
+// merges such comparisons, and makes the collection of captured problems.
 
 #include <algorithm>
 #include <iostream>
@@ -40,7 +40,7 @@ ExitCode collect(const CollectOptions& options) {
   create_folder(folder / "runs");
   const FileLock lock(folder / "collection.lock", briefly);
   lock.require_held();
-  // What the collection was made from stays with it.
+  // The list that the collection is made from is kept with it.
   const std::filesystem::path kept = folder / "collection.toml";
   if (options.list.empty()) write_whole_file(kept, collection_list());
   std::vector<CollectedRun> runs = read_collection(options.list.empty() ? kept : options.list);
@@ -66,16 +66,16 @@ Command collect_command() {
   CollectionOptions& made = options->made;
   return {
       "collect",
-      "Makes the collection: problems of many worlds, with a manifest and reference solutions",
-      {{"--output DIR", &made.folder, "Where it is made; the same command goes on"},
+      "Makes the collection of problems from many scenes, with a manifest and reference solutions",
+      {{"--output DIR", &made.folder, "Folder of the collection; the same command continues it"},
        {"--part", &options->part, "small (up to some 1000 contacts: minutes) or all (hours)"},
        {"--largest", &options->largest, "Leaves out scenes of more grains or bodies", at_least(1)},
        {"--held", &made.keeps_held_apart,
-        "Keeps the held fifth in held/, apart from what a method may be tuned on"},
+        "Keeps the held-out fifth in held/, apart from the problems that methods may be tuned on"},
        {"--exact-seconds", &made.reference_seconds,
-        "Spent on the reference solution of one problem; 0: none is looked for", at_least(0)},
-       {"--threads", &made.threads, "Of the runs: the same bits", at_least(1)},
-       {"--list FILE", &options->list, "Another list than the built-in one"}},
+        "Wall clock [s] to find the reference solution of one problem; 0: no search", at_least(0)},
+       {"--threads", &made.threads, "Threads of a run; the problems stay the same", at_least(1)},
+       {"--list FILE", &options->list, "A list of your own instead of the built-in one"}},
       [options] { return collect(*options); }};
 }
 
@@ -85,7 +85,7 @@ struct DiffOptions {
   bool shows_all = false;
 };
 
-/// `width`: of the longest case's name.
+/// Prints one line. `width` is that of the longest case's name.
 void print_change(const ChangedSolve& solve, int width) {
   const bool has_both = solve.before > 0.0 && solve.after > 0.0;
   const std::string ratio = has_both ? printed("%.2f", solve.after / solve.before) : "-";
@@ -131,17 +131,17 @@ ExitCode diff(const DiffOptions& options) {
 Command compare_diff_command() {
   const auto options = std::make_shared<DiffOptions>();
   return {"diff",
-          "Two comparisons of the same cases: what is faster; slower or lost, with exit code 1",
-          {{"before", &options->before, "Folder of a comparison", required},
-           {"after", &options->after, "Folder of another one, of the same machine", required},
+          "Lists what changed between two comparisons; exit code 1 if a solve is slower or lost",
+          {{"before", &options->before, "Folder of the earlier comparison", required},
+           {"after", &options->after, "Folder of the later one, from the same machine", required},
            {"--least", &options->least,
-            "Factor by which a median must have changed; also by more than the repeats' spread",
+            "Factor beyond which a median counts as changed, if also beyond the repeats' spread",
             at_least(1)},
-           {"--all", &options->shows_all, "Show what is the same, too"}},
+           {"--all", &options->shows_all, "Also lists the solves that are the same"}},
           [options] { return diff(*options); }};
 }
 
-/// A command that makes one page of several comparisons, by `write`.
+/// A command that makes one page of several comparisons with `write`.
 Command merging_command(const char* name, const char* meaning, const char* output, const char* page,
                         void (*write)(const std::filesystem::path& folder,
                                       std::span<const CompareRow> rows)) {
@@ -159,7 +159,7 @@ Command merging_command(const char* name, const char* meaning, const char* outpu
             std::vector<StoredComparison> comparisons;
             for (const std::string& folder : options->folders)
               comparisons.push_back(read_comparison(folder));
-            // The manifest of what is merged alone has an empty key.
+            // Only the manifest of a merged comparison has an empty key.
             require_own_folder(options->output, {{"manifest.json", "\"key\": \"\""}});
             const std::vector<CompareRow> rows =
                 write_origins(options->output, comparisons, own_command());
@@ -170,7 +170,7 @@ Command merging_command(const char* name, const char* meaning, const char* outpu
           }};
 }
 
-/// The words of the command line, and what is made of them.
+/// The values of the command line, and the options made from them.
 struct CompareRequest {
   LiveOptions live;
   std::vector<std::string> cases, external;
@@ -196,7 +196,7 @@ bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
 constexpr const char* interrupted =
     "compare: interrupted; nothing is lost, the same command goes on";
 
-/// The closed loop under each backend.
+/// Runs the closed loop under each backend.
 ExitCode compare_live(CompareRequest& options) {
   LiveOptions& live = options.live;
   if (options.is_quiet) live.style = StatusLine::Style::quiet;
@@ -208,7 +208,7 @@ ExitCode compare_live(CompareRequest& options) {
   };
   Manifest manifest("compare --live " + live.scene, {options.comparison.command}, binary_key());
   manifest.summary("blas", loaded_blas());
-  manifest.write(live.folder / "manifest.json");  // by which the folder is known
+  manifest.write(live.folder / "manifest.json");  // it identifies the folder
   const LiveComparison comparison = run_live(live, told);
   if (InterruptGuard::requested()) throw Error(interrupted);
   write_live_page(live.folder, comparison);
@@ -243,7 +243,7 @@ ExitCode compare(CompareRequest& options) {
   const std::filesystem::path output = options.comparison.folder;
   require_own_folder(output, {{"manifest.json", "\"scene\": \"compare\""},
                               {"manifest.json", "\"scene\": \"compare --live"}});
-  if (RunFolder(output).has_run())  // of a scene that is called compare
+  if (RunFolder(output).has_run())  // the run of a scene called compare
     throw Error(output.string() + ": holds a run: give a folder that is new or empty");
   if (!options.external.empty() && !options.live.scene.empty())
     throw UsageError("compare: --external: not with --live, whose solver works inside the step");
@@ -259,16 +259,16 @@ ExitCode compare(CompareRequest& options) {
   if (options.comparison.solvers.empty())
     throw UsageError("compare: --solvers none: expected a program that solves, --external");
   options.comparison.command = own_command();
-  // What names no case or scene makes no folder.
+  // A word that names no case or scene throws before a folder is made.
   if (!options.live.scene.empty()) resolve_run(options.live.scene, options.live.overrides);
   const std::vector<CompareCase> cases = compare_cases(options.cases);
   create_folder(output);
   const FileLock lock(output / "compare.lock", briefly);
   lock.require_held();
-  std::filesystem::remove(output / "results.csv");  // of an earlier command, with its manifest
+  std::filesystem::remove(output / "results.csv");  // left by an earlier command with its manifest
   if (!options.live.scene.empty()) return compare_live(options);
   const InterruptGuard guard;
-  // The programs go, with their folders, before a closed pipe may end this one.
+  // Destroyed before `guard`: the programs and their folders go while SIGPIPE is still ignored.
   const CompareOptions comparison = std::exchange(options.comparison, {});
   const auto told = [&](const CompareRow& row, bool was_there, size_t done, size_t count) {
     return options.is_quiet ? !InterruptGuard::requested() : show(row, was_there, done, count);
@@ -290,21 +290,22 @@ ExitCode compare(CompareRequest& options) {
 std::vector<Word> live_words(LiveOptions& live) {
   return {
       {"--live SCENE", &live.scene,
-       "Instead of cases: a scene's closed loop from one start under each backend and tolerance"},
-      {"--set KEY=VALUE", &live.overrides, "Of that scene: dotted.key=value", needs("--live")},
-      {"--from", &live.start,
-       "Simulated time up to which the scene's own solver goes, once for all [s]", at_least(0),
+       "Instead of cases: simulates a scene from one start with each backend and tolerance"},
+      {"--set KEY=VALUE", &live.overrides, "Overrides one value of that scene: dotted.key=value",
        needs("--live")},
-      {"--duration", &live.duration, "Simulated from there under each backend [s]", above(0),
+      {"--from", &live.start,
+       "Simulated time [s] of that start; the scene's own solver runs up to it, once for all",
+       at_least(0), needs("--live")},
+      {"--duration", &live.duration, "Simulated time [s] from that start on", above(0),
        needs("--live")},
       {"--iterations", &live.iterations,
-       "Besides the tolerances: so many in every step, whatever the error", at_least(1),
+       "Adds trajectories of so many iterations in every step, comma-separated", at_least(1),
        needs("--live")},
-      {"--threads", &live.threads, "Of the step and its solver", between(1, 256), needs("--live")},
-      {"--trajectory-seconds", &live.trajectory_seconds, "Wall clock of one trajectory", above(0),
-       needs("--live")},
+      {"--threads", &live.threads, "Threads of step and solver", between(1, 256), needs("--live")},
+      {"--trajectory-seconds", &live.trajectory_seconds,
+       "Limit on the wall clock of one trajectory [s]", above(0), needs("--live")},
       {"--packing-cache DIR", &live.packing_cache,
-       "Where deposited packings are kept (<output>/packings)", needs("--live")}};
+       "Where deposited packings are kept (default: <output>/packings)", needs("--live")}};
 }
 
 }  // namespace
@@ -316,37 +317,37 @@ Command compare_command() {
   comparison.folder = "results/compare";
   Command command{
       "compare",
-      "Backends on identical problems: accuracy against cost, figures, a page",
+      "Compares backends (solvers) on identical problems: accuracy against cost, figures, a page",
       {{"cases", &options->cases, "Files, folders, patterns, known:..., pile:..., stress:..."},
        {"--solvers", into(comparison.solvers, parse_solvers, "all"),
-        "Names, separated by commas, or all, or none: programs alone"},
+        "Names of backends, separated by commas; all; or none (external programs alone)"},
        {"--external NAME=COMMAND", &options->external,
-        "Also a program that solves, or FILE.toml with a list (docs/manual/external.md)"},
+        "Adds a program that solves, or FILE.toml with a list of them (docs/manual/external.md)"},
        {"--startup-seconds", &options->program_limits.startup_seconds,
-        "Wall clock that such a program may take beside --max-seconds, to start and read",
-        at_least(0)},
+        "Wall clock [s] for such a program to start and read, besides --max-seconds", at_least(0)},
        {"--tolerances", into(comparison.tolerances, parse_tolerances, "1e-4,1e-8"),
-        "Separated by commas; none: only with --iterations"},
+        "Bounds on the error, separated by commas; none: only --live with --iterations"},
        {"--starts", into(comparison.starts, parse_starts, "cold"),
-        "cold, warm or cold,warm; warm where a case has a warm start"},
-       {"--measure", into(comparison.measure, measure_of, "natural_map"), "natural_map or fclib"},
-       {"--repeats", &comparison.repeats, "Interleaved; tables show the median", at_least(1)},
-       {"--max-seconds", &comparison.max_seconds, "Wall clock of one solve, prepare included",
-        above(0)},
+        "cold (from zero), warm (only cases that have a warm start) or cold,warm"},
+       {"--measure", into(comparison.measure, measure_of, "natural_map"),
+        "The error that the tolerances bound: natural_map or fclib (see below)"},
+       {"--repeats", &comparison.repeats, "Interleaved repeats; tables show medians", at_least(1)},
+       {"--max-seconds", &comparison.max_seconds,
+        "Limit on the wall clock of one solve, preparation included [s]", above(0)},
        {"--exact-seconds", &comparison.exact_seconds,
-        "Spent on a solution at 1e-9 of each case, from which distances are measured; 0: none",
+        "Wall clock [s] to find each case's solution at 1e-9, for distances from it; 0: no search",
         at_least(0)},
-       {"--memory", &comparison.limits.memory_MB, "Address space of one child in MB; 0: no limit",
-        at_least(0)},
+       {"--memory", &comparison.limits.memory_MB,
+        "Limit on the address space of one child process [MB]; 0: no limit", at_least(0)},
        {"--output DIR", &comparison.folder, "Folder of the results"},
-       {"--no-report", &options->report, "No figures and no page"},
-       {"--quiet", &options->is_quiet, "Says nothing but failures"}},
+       {"--no-report", &options->report, "Draws no figures and no page"},
+       {"--quiet", &options->is_quiet, "Prints nothing but failures"}},
       [options] { return compare(*options); },
       {compare_diff_command(),
-       merging_command(
-           "merge", "Comparisons of several jobs, machines, days as one; ratios within a machine",
-           "results/merged", "compare.html", write_merged),
-       merging_command("ranking", "Who solves what, and how fast: a page and a table",
+       merging_command("merge",
+                       "Merges comparisons of jobs, machines or days; ratios only within a machine",
+                       "results/merged", "compare.html", write_merged),
+       merging_command("ranking", "Ranks backends: what each solves, how fast; a page and a table",
                        "results/ranking", "index.html", write_ranking),
        collect_command()}};
   const std::vector<Word> more = live_words(options->live);

@@ -1,4 +1,4 @@
-// States of a run as files for other programs and as pictures; things in 3D as a page.
+// The commands export (states of a run as files or pictures) and view (a page in 3D).
 
 #include <cmath>
 #include <iostream>
@@ -37,7 +37,7 @@ struct ExportOptions {
   StillOptions still;
 };
 
-/// "35" or "20:40".
+/// Parses "35" or "20:40".
 std::optional<std::pair<size_t, size_t>> parsed_frames(const std::string& word) {
   if (word.empty()) return std::nullopt;
   const std::vector<std::string> ends = split(word, ':');
@@ -55,7 +55,7 @@ ViewData run_view(const fs::path& folder) {
 
 bool is_picture(const ExportOptions& options) { return options.output.extension() == ".png"; }
 
-/// Numbers of the first and last frame that are asked for.
+/// The numbers of the first and last frame that are asked for.
 std::pair<size_t, size_t> chosen_frames(const ExportOptions& options, const ViewData& view) {
   const size_t count = view.frames.size();
   if (options.all) return {0, count - 1};
@@ -77,7 +77,7 @@ ExitCode say(const std::string& files, const MotionState& first, const MotionSta
   return ExitCode::ok;
 }
 
-/// Stored frames: all, each as a file of its own, one, or some as a picture that moves.
+/// Exports stored frames: all, each as its own file; one; or some as one animated picture.
 ExitCode export_frames(const ExportOptions& options) {
   const ViewData view = run_view(options.source);
   if (options.still.with_chains && !view.contacts)
@@ -104,7 +104,7 @@ ExitCode export_frames(const ExportOptions& options) {
              begin, end);
 }
 
-/// The run's folder that a checkpoint, or one of its states, is in.
+/// The folder of the run that a checkpoint, or one of its states, belongs to.
 fs::path run_of(const fs::path& checkpoint) {
   const fs::path folder = fs::absolute(checkpoint).lexically_normal().parent_path();
   return folder.filename() == "states" ? folder.parent_path() : folder;
@@ -149,7 +149,7 @@ ViewData view_of(const ViewOptions& options) {
   if (is_mesh_file(path)) return view_of_mesh(path);
   if (is_problem_file(path)) {
     if (!is_captured(path)) {
-      read_problem(path);  // what is no problem at all is said by this
+      read_problem(path);  // throws where it is no problem at all
       throw Error(path.string() +
                   ": does not say where its contacts are, so there is nothing to show in 3D; "
                   "problems of ballast run --capture do");
@@ -166,7 +166,7 @@ ExitCode write_view(const ViewOptions& options) {
   if (is_file(page) && fs::canonical(page).extension() != ".html")
     throw Error(page.string() + ": is no page (.html): it would be written over");
   if (page.empty()) {
-    // Beside what is there already: in a run's folder, beside a problem; else here.
+    // The page goes into a run's folder or beside a problem, else into the current folder.
     const fs::path path = options.thing, name = path.stem().string() + ".view.html";
     page = is_folder(path) ? path / "view.html"
                            : (is_problem_file(path) ? path.parent_path() : fs::path()) / name;
@@ -190,18 +190,18 @@ Command export_command() {
         "The file to write: .obj, grains as meshes; .vtp, for ParaView; .png, a picture", required},
        {"--time S", &options->time, "The stored frame nearest to this time [s]", at_least(0)},
        {"--frames N", into(options->frames, parsed_frames),
-        "Number of the stored frame (the last); .png: FIRST:LAST is a picture that moves",
+        "Number of the stored frame, from 0; .png: FIRST:LAST is a moving picture (default: last)",
         excludes("--time")},
        {"--view FROM",
         Parsed{"home", [options](const std::string& word) { set_view(options->still, word); }},
-        ".png: home, x, -x, y, -y, z, or YAW,PITCH in degrees"},
+        ".png: seen from home, x, -x, y, -y, z, or YAW,PITCH in degrees"},
        {"--chains", &options->still.with_chains,
-        ".png: force chains, bodies as glass; needs a run with record.forces"},
-       {"--width PIXELS", &options->still.width, "png", between(16, 8000)},
-       {"--height PIXELS", &options->still.height, "png", between(16, 8000)},
+        ".png: draws force chains, and bodies as glass; needs a run with record.forces=true"},
+       {"--width PIXELS", &options->still.width, ".png: width in pixels", between(16, 8000)},
+       {"--height PIXELS", &options->still.height, ".png: height in pixels", between(16, 8000)},
        {"--all", &options->all,
-        "Every stored frame: FILE with _<step> before its suffix; with .vtp also the .pvd that "
-        "ParaView opens as one series, and the contacts of a run with record.forces",
+        "Writes every stored frame: FILE with _<step> before its suffix; for .vtp also a .pvd, "
+        "which ParaView opens as one series, and the contacts of a run with record.forces=true",
         excludes("--time"), excludes("--frames")}},
       [options] { return export_run(*options); }};
 }
@@ -210,24 +210,24 @@ Command view_command() {
   const auto options = std::make_shared<ViewOptions>();
   return {
       "view",
-      "Writes a page that shows something in 3D, and says its path",
+      "Writes a page that shows a run, problem, scene or mesh in 3D; prints its path",
       {{"thing", &options->thing,
         "A run's folder, a captured problem (.hdf5), a scene (name or TOML file), or a mesh (.obj, "
         ".stl)",
         required},
        {"--output FILE", &options->output,
-        "The page (view.html in a run's folder, NAME.view.html else)"},
-       {"--open", &options->open, "Opens it in the browser (xdg-open)"},
+        "The page to write (default: view.html in a run's folder, else NAME.view.html)"},
+       {"--open", &options->open, "Opens the page in the browser (xdg-open)"},
        {"--solver NAME", &options->question.backends,
-        "Of a captured problem: the backends whose errors are shown"},
+        "Captured problem: shows the errors of this backend; may be repeated"},
        {"--iterations N", &options->question.most_iterations,
-        "Of a captured problem: the largest budget; 1, 3, 10, 30, ... below it are shown too",
+        "Captured problem: most iterations; also shows errors after 1, 3, 10, 30, ... iterations",
         between(1, 100000)},
        {"--warm", &options->question.is_warm,
-        "Of a captured problem: begin where the run did, not at zero"},
-       {"--set KEY=VALUE", &options->overrides, "Of a scene: dotted.key=value"},
+        "Captured problem: starts at the run's warm start, not at zero"},
+       {"--set KEY=VALUE", &options->overrides, "Scene: overrides one value: dotted.key=value"},
        {"--packing-cache DIR", &options->packing_cache,
-        "Of a scene with grains: where its packing may be"}},
+        "Scene with grains: where deposited packings are kept"}},
       [options] { return write_view(*options); }};
 }
 

@@ -1,5 +1,5 @@
-// What there is: solvers, scenes. What is in a file, and whether it is sound; stored
-// problems from one format into another.
+// The commands solvers and scenes (lists), check (the content of files and whether it is sound) and
+// convert (stored problems from one format into another).
 
 #include <algorithm>
 #include <iostream>
@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As it stands in its file; resolved without scene.name where that is only the file's: in a file
-/// of the user's own it would lead into the results of the scene that was printed.
+/// Prints a scene as it stands in its file, or resolved; then without scene.name where that is only
+/// the file's name: copied into a user's file, it would lead into the results of the printed scene.
 void print_scene(const std::string& name, const std::vector<std::string>& overrides,
                  bool resolved) {
   const fs::path file = find_scene(name);
@@ -96,7 +96,7 @@ std::string check_checkpoint(const std::string& file) {
                  checkpoint.memory.contacts.size());
 }
 
-/// What is in the file, by its suffix.
+/// Describes the content of the file, by its suffix.
 std::string check(const std::string& file, const CheckOptions& options) {
   std::filesystem::path path = file;
   if (!path.has_filename()) path = path.parent_path();  // a folder, written with its slash
@@ -127,7 +127,7 @@ StoredForms forms_of(const std::string& name) {
   throw std::invalid_argument("'" + name + "': expected one of local, global, both");
 }
 
-/// Throws Error unless nothing is there, or a problem of ours that holds no more than that.
+/// Throws Error unless no file is there, or a problem of ours that holds nothing else.
 void require_replaceable(const fs::path& target) {
   if (!is_file(target)) return;
   const Hdf5Reader file(target);
@@ -138,7 +138,7 @@ void require_replaceable(const fs::path& target) {
     throw Error(target.string() + ": is no problem of convert: it would be written over");
 }
 
-/// Into `target`, which no other problem is in.
+/// Converts one problem into `target`, which holds no other problem.
 void convert_one(const FoundProblem& found, StoredForms forms, const fs::path& target) {
   std::error_code error;
   if (fs::equivalent(target, found.file, error))
@@ -153,8 +153,8 @@ void convert_one(const FoundProblem& found, StoredForms forms, const fs::path& t
             << target.string() << std::endl;
 }
 
-/// Whether --output is the file of one problem, and not a folder. Throws UsageError: several
-/// problems, or a suffix that is not HDF5's.
+/// Returns whether --output is the file of one problem, and not a folder. Throws UsageError for
+/// several problems, or a suffix that is not HDF5's.
 bool names_a_file(const ConvertOptions& options, size_t problems) {
   if (!is_problem_file(options.output) || is_folder(options.output)) return false;
   const std::string named = "--output " + options.output.string();
@@ -173,7 +173,7 @@ ExitCode convert(const ConvertOptions& options) {
   const bool is_file = names_a_file(options, problems.size());
   size_t failed = 0;
   std::string reasons;
-  std::map<fs::path, fs::path> written;  // what is in it
+  std::map<fs::path, fs::path> written;  // the source of each target
   for (const FoundProblem& found : problems) {
     fs::path target = is_file ? options.output : options.output / found.name;
     if (!is_file) target.replace_extension(".hdf5");
@@ -182,7 +182,7 @@ ExitCode convert(const ConvertOptions& options) {
       if (!is_new) throw Error(target.string() + ": holds " + before->second.string() + " already");
       convert_one(found, options.forms, target);
     } catch (const std::exception& error) {
-      // The others go on.
+      // The other problems are still converted.
       std::string why = error.what();
       if (why.find(found.file.string()) == std::string::npos)
         why = found.file.string() + ": " + why;
@@ -200,7 +200,7 @@ ExitCode convert(const ConvertOptions& options) {
 }  // namespace
 
 Command solvers_command() {
-  return {"solvers", "Lists the solvers: name, law, whether built, what it is", {}, [] {
+  return {"solvers", "Lists the solvers: name, law, whether built, size limit, method", {}, [] {
             std::cout << printed("%-18s%-19s%-7s%-10s", "name", "law", "built", "largest")
                       << "what it is (largest: contacts that it takes)\n";
             for (const SolverEntry& entry : solver_list()) {
@@ -225,11 +225,11 @@ Command scenes_command() {
   const auto options = std::make_shared<Options>();
   return {"scenes",
           "Lists the scenes, or prints one",
-          {{"name", &options->name, "The scene to print: a start for one of your own"},
-           {"--resolved", &options->resolved, "With every default filled in, as runs keep it",
-            needs("name")},
+          {{"name", &options->name, "The scene to print, as a start for your own"},
+           {"--resolved", &options->resolved,
+            "Prints it with every default filled in, as in a run's scene.toml", needs("name")},
            {"--set KEY=VALUE", &options->overrides,
-            "With this override, resolved: dotted.key=value", needs("name")}},
+            "Prints it resolved, with one value overridden: dotted.key=value", needs("name")}},
           [options] {
             if (!options->name.empty()) {
               print_scene(options->name, options->overrides, options->resolved);
@@ -257,7 +257,7 @@ Command check_command() {
         "Overrides one value of the scenes: dotted.key=value"},
        {"--scale", &options->scale, "Metres per unit of the meshes: 0.001 for millimetres",
         above(0)},
-       {"--hull", &options->hull, "Meshes: the convex hull of the vertices, for scanned grains"}},
+       {"--hull", &options->hull, "Checks the convex hull of the mesh vertices (scanned grains)"}},
       [options] {
         for (const std::string& file : options->files) {
           const std::string what = check(file, *options);
@@ -270,12 +270,12 @@ Command check_command() {
 Command convert_command() {
   const auto options = std::make_shared<ConvertOptions>();
   return {"convert",
-          "Stored problems from one format into another, whole collections at once",
+          "Converts stored problems from one format into another, whole folders at once",
           {{"problems", &options->problems, "Files, folders, patterns: .hdf5, .h5, .dat", required},
            {"--to FORMAT", into(options->forms, forms_of, "local"),
             "local (FCLIB: W, q), global (FCLIB: M, H) or both"},
            {"--output PATH", &options->output,
-            "Folder for the converted ones; of one problem also its file: .hdf5, .h5", required}},
+            "Folder for converted problems; for a single one also a .hdf5 or .h5 file", required}},
           [options] { return convert(*options); }};
 }
 

@@ -1,5 +1,5 @@
-// One run and its page, which can be drawn again: after a full disk, with gnuplot installed
-// meanwhile, or while the run goes on. Many runs: a plan, and the paper's campaign with its report.
+// The commands run, report (draws a run's page again: after a full disk, with gnuplot installed
+// meanwhile, or during the run), plan (many runs) and paper (the campaign and its report).
 
 #include <algorithm>
 #include <iostream>
@@ -33,12 +33,12 @@ struct RunRequest {
   bool is_quiet = false;
 };
 
-/// This command line, so that it goes on with the run that it has begun: from the folder where it
-/// was given, with all its options.
+/// This command line, changed so that it continues the run that it has begun, from the folder where
+/// it was given and with all its options.
 std::string command_that_goes_on() {
   std::vector<std::string> words = own_words();
   words[0] = own_program().string();
-  // What would begin anew is left out.
+  // The option that would begin the run anew is left out.
   std::erase(words, "--overwrite");
   const auto is_given = [&](const char* word) {
     return std::find(words.begin(), words.end(), word) != words.end();
@@ -47,8 +47,8 @@ std::string command_that_goes_on() {
   return "cd " + shell_word(std::filesystem::current_path().string()) + " && " + shell_line(words);
 }
 
-/// Draws the run's page where it is asked for or missing, and says what is where and what can be
-/// done next.
+/// Draws the run's page where it is asked for, unless a finished run has it; prints where the
+/// results are and what can be done next.
 void show_results(const RunEnd& end, const RunRequest& request, bool has_grains) {
   const bool with_page = request.with_page, has_page = is_there(end.folder / "report.html");
   if (with_page && (!end.was_finished || !has_page)) write_report(end.folder);
@@ -66,7 +66,7 @@ void show_results(const RunEnd& end, const RunRequest& request, bool has_grains)
             << next_commands(has_grains) << std::flush;
 }
 
-/// What the user must know of a run that is finished. Strict: only a clean one is a success.
+/// Prints what the user must know of a finished run. With --strict only a clean run is a success.
 ExitCode tell_trust(const RunData& data, const RunRequest& request) {
   const RunSummary run = summarise(data.steps, data.facts);
   const bool is_failure = request.strict && !is_clean(run);
@@ -106,7 +106,7 @@ struct PlanRequest {
   bool dry_run = false, commands = false;
 };
 
-/// What would be run.
+/// Prints the runs that would be made.
 void list_runs(const Plan& plan, const PlanOptions& running) {
   const std::vector<PlannedRun> runs = select(plan, running.only);
   int widest = 4;
@@ -163,8 +163,8 @@ void print_plan(const PaperData& data) {
             << std::endl;
 }
 
-/// Stage by stage, so that time running out leaves whole figures. Not made: runs whose rows are
-/// known.
+/// Makes the runs stage by stage, so that whole figures exist when the time runs out. Runs whose
+/// rows are known are not made.
 ExitCode run_stages(const PaperData& data, const PaperOptions& options) {
   const Stopwatch watch;
   ExitCode worst = ExitCode::ok;
@@ -236,7 +236,7 @@ ExitCode reproduce(PaperOptions options) {
 Command report_command() {
   const auto folders = std::make_shared<std::vector<std::string>>();
   return {"report",
-          "Draws the page of a run from its record, again or while it goes on",
+          "Draws the page of a run, report.html, from its record again, also while the run goes on",
           {{"run", folders.get(), "Folders of runs", required}},
           [folders] {
             for (const fs::path folder : *folders) {
@@ -254,30 +254,30 @@ Command run_command() {
   RunOptions& run = request->run;
   return {
       "run",
-      "Runs a scene into a folder of results",
+      "Simulates a scene and writes a folder of results",
       {{"scene", &run.scene, "A scene's name (ballast scenes) or a TOML file", required},
        {"--set KEY=VALUE", &run.overrides,
-        "Overrides one value of the scene: dotted.key=value, body.0.mass=2"},
-       {"--output DIR", &run.output, "The run's folder (results/<scene>)"},
+        "Overrides one value of the scene: dotted.key=value, for example body.0.mass=2"},
+       {"--output DIR", &run.output, "The run's folder (default: results/<scene>)"},
        {"--overwrite", &run.overwrite, "Replaces the run found in the folder"},
        {"--continue", &run.resume,
         "Continues the run found in the folder or begins one; does nothing when it is finished",
         excludes("--overwrite")},
-       {"--deposit-only", &run.deposit_only, "Only sees to it that the packing is in the cache"},
+       {"--deposit-only", &run.deposit_only, "Only deposits the packing, unless the cache has it"},
        {"--packing-cache DIR", &run.packing_cache,
-        "Where deposited packings are kept (<output>/../packings)"},
+        "Where deposited packings are kept (default: <output>/../packings)"},
        {"--capture WHICH", into(run.capture, CaptureSettings::parse),
-        "Keeps the friction problems of steps as FCLIB files in <output>/capture: every=50 (two "
-        "consecutive ones each; steps=3: three), from=1000,to=1020; also=10: that one too"},
+        "Writes friction problems as FCLIB files into <output>/capture: every=50 (steps 50, 51, "
+        "100, 101, ...; steps=3: three each time), from=1000,to=1020, also=10 (step 10 too)"},
        {"--threads N", &run.threads,
         "Threads of a step, at most the cores; the results are the same to the last bit",
         between(1, 256)},
        {"--max-seconds S", &run.max_seconds,
-        "Wall clock after which to write a checkpoint and exit with 3", above(0)},
+        "Wall clock [s] after which a checkpoint is written and the exit code is 3", above(0)},
        {"--strict", &request->strict,
-        "Exit code 1 when steps missed their tolerance, overlaps can be seen or energy was gained"},
-       {"--quiet", &request->is_quiet, "Says nothing but failures"},
-       {"--no-report", &request->with_page, "No figures and no page at the end"}},
+        "Exit code 1 if steps missed their tolerance, overlaps are visible or energy was gained"},
+       {"--quiet", &request->is_quiet, "Prints nothing but failures"},
+       {"--no-report", &request->with_page, "Draws no figures and no page at the end"}},
       [request] { return run_scene(*request); }};
 }
 
@@ -287,19 +287,19 @@ Command plan_command() {
   running.results.clear();
   running.jobs = available_cores();
   return {"plan",
-          "Many runs, several at a time, each only once",
-          {{"plan", &options->plan, "A plan's file (docs/manual/plans.md)", required},
-           {"--jobs N", &running.jobs, "Runs at a time", between(1, 4096)},
+          "Makes the runs of a plan, several at a time, each only once",
+          {{"plan", &options->plan, "The plan, a TOML file (docs/manual/plans.md)", required},
+           {"--jobs N", &running.jobs, "Number of runs at a time", between(1, 4096)},
            {"--output DIR", &running.results,
-            "The folder of results (results/<plan>); plans may share one"},
-           {"--only PATTERN", &running.only, "Only runs whose names match: 'nu-*seed=1'"},
+            "Folder of results (default: results/<plan>); plans may share it"},
+           {"--only PATTERN", &running.only, "Takes only runs whose names match: 'nu-*seed=1'"},
            {"--dry-run", &options->dry_run,
-            "Lists the runs, their keys and how far they are; runs nothing"},
+            "Lists the runs with their keys, states and packings; runs nothing"},
            {"--commands", &options->commands,
-            "Runs nothing, but prints what is to be done as lines for a shell, packings first",
+            "Prints missing packings, then unfinished runs, as shell commands; runs nothing",
             excludes("--dry-run")},
            {"--max-seconds S", &running.max_seconds,
-            "Wall clock after which everything writes a checkpoint and the program exits with 3",
+            "Wall clock [s] after which all runs stop with checkpoints and the exit code is 3",
             above(0)}},
           [options] { return run_planned(*options); }};
 }
@@ -311,25 +311,25 @@ Command paper_command() {
   running.results = "results/paper";
   running.jobs = available_cores();
   return {"paper",
-          "Reproduces the paper: runs, figures 3 to 13, one report",
+          "Reproduces the paper (Azema et al.): its runs, figures 3 to 13, a report",
           {{"target", &options->target,
-            "What: all; a section (fig3 to fig13, curve, box ...) or a stage of the campaign; plan "
-            "(lists the runs); report, article, archive (of what is there, run nothing)",
+            "all, a section (fig3 to fig13, curve, box, ...) or a campaign stage: its runs and a "
+            "report; plan: lists the runs; report, article, archive: from existing runs alone",
             required},
-           {"--jobs N", &running.jobs, "Runs at a time", between(1, 4096)},
-           {"--results DIR", &running.results, "The folder of runs"},
+           {"--jobs N", &running.jobs, "Number of runs at a time", between(1, 4096)},
+           {"--results DIR", &running.results, "Folder of the runs"},
            {"--output DIR", &options->output,
-            "The folder of the report (<results>/report) or of the archive (<results>/archive)"},
+            "Folder of the report (default: <results>/report) or archive (<results>/archive)"},
            {"--rows FILE", &options->rows,
-            "A report's data/runs.csv: its runs are taken from there, not made again"},
+            "data/runs.csv of a report: the runs in it are taken from there, not made again"},
            {"--max-seconds S", &running.max_seconds,
-            "Wall clock after which runs write checkpoints; the report is written all the same",
+            "Wall clock [s] after which runs stop with checkpoints; the report is still written",
             above(0)},
-           {"--plan FILE", &campaign.plan, "Another campaign than the built-in campaign.toml"},
-           {"--scene SCENE", &campaign.scene, "Another box instead of vibrated_box"},
+           {"--plan FILE", &campaign.plan, "Campaign plan instead of the built-in campaign.toml"},
+           {"--scene SCENE", &campaign.scene, "Scene of a box instead of vibrated_box"},
            {"--set KEY=VALUE", &campaign.overrides, "Overrides one value in every run"},
            {"--only PATTERN", &campaign.only,
-            "Runs whose names a shell's pattern takes: '*seed=1*' is one sample"}},
+            "Takes only runs whose names match: '*seed=1*' is one sample"}},
           [options] { return reproduce(*options); }};
 }
 
