@@ -41,9 +41,9 @@ void sync_folder(const fs::path& folder) {
 
 namespace {
 
-/// The regular file, be it not there yet, that a name leads to, symbolic links followed one by one.
-/// Empty where the name must be written as it is: devices, pipes, and links that pass through
-/// /proc, as /dev/stdout does: a file that somebody has open must not be replaced under his hands.
+/// The regular file, existing or not, that a name leads to; symbolic links are followed one by one.
+/// Empty where the name must be written directly: devices, pipes, and links that pass through
+/// /proc, as /dev/stdout does: a file that another process has open must not be replaced.
 fs::path replaceable(const fs::path& name) {
   fs::path file = name;
   std::error_code error;
@@ -52,7 +52,7 @@ fs::path replaceable(const fs::path& name) {
     file = file.parent_path() / fs::read_symlink(file, error);
     if (file.lexically_normal().string().starts_with("/proc/")) return {};
   }
-  // A ring of links is none: opening it says so.
+  // A cycle of links leads to no file: opening it reports that.
   const fs::file_type kind = fs::status(file, error).type();
   return kind == fs::file_type::regular || kind == fs::file_type::not_found ? file : fs::path();
 }
@@ -65,8 +65,8 @@ AtomicFile::AtomicFile(fs::path target) : name_(std::move(target)), target_(repl
   errno = 0;
   file_ = target_.empty() ? std::fopen(name_.c_str(), "wb") : std::fopen(neighbour_.c_str(), "w+b");
   if (!file_) throw_file_error(name_, "write");
-  // Who may read and write it stays as it was; where it is not ours to say, it stays new.
-  // A neighbour that leads to a device stays as it is.
+  // The target's permissions are kept; where we may not set them, the new ones stay. A neighbour
+  // that leads to a device stays as it is.
   struct stat old, mine;
   if (!target_.empty() && stat(target_.c_str(), &old) == 0 && fstat(fileno(file_), &mine) == 0 &&
       S_ISREG(mine.st_mode) && fchmod(fileno(file_), old.st_mode & 07777) != 0)
@@ -75,7 +75,7 @@ AtomicFile::AtomicFile(fs::path target) : name_(std::move(target)), target_(repl
 
 AtomicFile::~AtomicFile() {
   if (file_) std::fclose(file_);
-  // There was no commit(): the target stays as it was.
+  // Without commit() the target stays as it was.
   if (!neighbour_.empty()) std::remove(neighbour_.c_str());
 }
 
@@ -138,7 +138,7 @@ namespace {
 
 const std::string signature = "process ";
 
-/// By which a lock is known. One that has just been made is not signed yet.
+/// True for the text of a lock. A lock that has just been made is not signed yet.
 bool is_lock_text(std::string_view text) { return text.empty() || text.starts_with(signature); }
 
 bool is_lock(const fs::path& file) {
@@ -155,7 +155,7 @@ void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> k
       return;
   }
   if (!is_folder(folder)) return;
-  // Who is killed before his first file is whole leaves folders, a file beside it and a lock.
+  // A process killed before its first file is whole leaves folders, a .tmp file and a lock.
   constexpr auto skipping = fs::directory_options::skip_permission_denied;
   const bool has_files = std::any_of(fs::recursive_directory_iterator(folder, skipping),
                                      fs::recursive_directory_iterator(), [](const auto& entry) {
@@ -170,8 +170,8 @@ void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> k
 
 namespace {
 
-/// The file under that name is still the one that was opened: its last holder may have removed it
-/// meanwhile.
+/// True where the file under that name is still the one that was opened: the last holder of the
+/// lock may have removed it meanwhile.
 bool is_current(int descriptor, const fs::path& file) {
   struct stat opened {
   }, named{};
@@ -189,7 +189,7 @@ FileLock::FileLock(fs::path file, const Patience& patience) : file_(std::move(fi
     if (!patience(waited)) return;
     usleep(static_cast<useconds_t>(1e6 * pause));
   }
-  // Signed only for whoever is turned away: that it cannot be written harms nobody.
+  // The signature only informs those who are turned away: failing to write it does no harm.
   char host[65] = "";
   gethostname(host, sizeof host - 1);
   const std::string text = signature + std::to_string(getpid()) + " on " + host;
@@ -201,7 +201,7 @@ bool FileLock::try_once() {
   const int descriptor = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) throw_file_error(file_, "make the lock");
   const bool is_locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-  // Somebody else has it: read who signed it. Or it was unlinked meanwhile: then try again.
+  // Either somebody else holds it: read who signed it. Or it was unlinked meanwhile: try again.
   const int error = is_locked ? EWOULDBLOCK : errno;
   char text[160];
   const ssize_t length = pread(descriptor, text, sizeof text, 0);

@@ -1,6 +1,6 @@
 #pragma once
-// Wall clock: time that passes for the user, in seconds, never set back. And what this process has
-// used: the processor's time, memory.
+// The wall clock (in seconds, never set back), and the processor time and memory that this process
+// has used.
 
 #include <sys/resource.h>
 
@@ -15,7 +15,7 @@ class Stopwatch {
   /// Since it was made or restarted [s].
   double seconds() const { return to_seconds(Clock::now() - begin_); }
 
-  /// seconds() >= limit. Far from the limit a coarse clock says so, for a sixth of the price.
+  /// Returns seconds() >= limit. Far from the limit a coarse clock decides, at a sixth of the cost.
   bool has_passed(double limit) const {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
@@ -24,7 +24,7 @@ class Stopwatch {
     return seconds() >= limit;
   }
 
-  /// The same, and begins again at zero: laps without a gap between them.
+  /// Returns seconds() and restarts at zero: successive laps have no gap between them.
   double restart() {
     const Clock::time_point now = Clock::now();
     const double lap = to_seconds(now - begin_);
@@ -36,21 +36,21 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
   static double to_seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-  static constexpr double coarse_tick = 0.011;  ///< the coarse clock's delay is less [s]
+  static constexpr double coarse_tick = 0.011;  ///< the coarse clock lags by less [s]
 
   Clock::time_point begin_ = Clock::now();
 };
 
-/// Of this process, all its threads together, since it began [s]: what other programs on the
-/// machine do not disturb. Waiting threads that spin count.
+/// Processor time of this process, all threads together, since it began [s]. Other programs on the
+/// machine do not disturb it. Threads that spin while they wait count.
 inline double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The most memory that this process has held so far [MB]; RUSAGE_CHILDREN: the largest process
-/// that it waited for.
+/// Peak memory of this process so far [MB]; with RUSAGE_CHILDREN, of the largest process that it
+/// waited for.
 inline double peak_memory_MB(int who = RUSAGE_SELF) {
   rusage usage{};
   getrusage(who, &usage);

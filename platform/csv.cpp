@@ -67,7 +67,7 @@ bool CsvReader::next() {
 
 void CsvReader::split(std::string_view line) {
   cells_.clear();
-  // Behind a comma there is one more cell, be it empty.
+  // A comma is always followed by one more cell, which may be empty.
   for (size_t at = 0; cells_.empty() || at++ < line.size();) {
     std::string& cell = cells_.emplace_back();
     if (at == line.size() || line[at] != '"') {

@@ -15,13 +15,13 @@ namespace ballast {
 class CsvWriter {
  public:
   void add(std::string_view cell);
-  /// In so many digits as printf's %g has them; 17 keep every bit.
+  /// `digits` is as in printf's %g; 17 keep every bit.
   void add(double value, int digits);
   void add(long value);
   void end_row();
   void add_row(std::span<const std::string> cells);
 
-  /// What has been written since the last call.
+  /// Returns the text that was written since the last call.
   std::string take() { return std::exchange(text_, {}); }
 
  private:
@@ -31,7 +31,7 @@ class CsvWriter {
   bool in_row_ = false;
 };
 
-/// A number as a cell, in so many digits as printf's %g has them; empty where it is not finite.
+/// A number as a cell, with `digits` as in printf's %g; empty where it is not finite.
 std::string number_cell(double value, int digits);
 
 /// Reads a file row by row; empty lines are skipped.
@@ -44,9 +44,9 @@ class CsvReader {
 
   /// Goes to the next row; false after the last.
   bool next();
-  /// Of this row, without their quotes; valid until next().
+  /// The cells of this row, without their quotes; valid until next().
   std::span<const std::string> cells() const { return cells_; }
-  /// The same as a number. Throws Error naming `column`, when it is none.
+  /// A cell as a number. Throws Error naming `column` when it is none.
   double number(size_t cell, std::string_view column) const;
   /// Throws Error unless the row has `count` cells.
   void require_cells(size_t count) const;
@@ -57,7 +57,7 @@ class CsvReader {
   void split(std::string_view line);
 
   std::string file_, text_;
-  size_t at_ = 0;  // the next line's beginning in text_
+  size_t at_ = 0;  // where the next line begins in text_
   long line_ = 0;
   std::vector<std::string> cells_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What goes wrong outside the program: a file, a folder, a disk, another program.
+// Errors from outside the program: a file, a folder, a disk, another program.
 
 #include <stdexcept>
 #include <string>
@@ -9,13 +9,13 @@
 namespace ballast {
 
 /// what() begins with the file or program and says what is wrong with it. It is one line: control
-/// characters of what is quoted are shown as '?'.
+/// characters in it are shown as '?'.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& what) : std::runtime_error(one_line(what, '?')) {}
 };
 
-/// What a message says of JSON of ours that is not as we write it, in place of the library's words.
+/// The message for JSON of ours that is not as we write it, in place of the library's words.
 inline constexpr const char* broken_json =
     "a name or a bracket is missing, or a value is of another kind";
 

@@ -1,8 +1,8 @@
 #pragma once
-// BALLAST_FOR_EACH_CPU stands before a function that is compiled for several instruction sets; the
-// best one that the processor has is chosen when the program starts. Empty where the compiler or a
-// sanitizer cannot do so. BALLAST_IN_LOOP stands before one that its loops call: it becomes a part
-// of each version, where it is compiled as that.
+// BALLAST_FOR_EACH_CPU marks a function that is compiled for several instruction sets; the best
+// version for the processor is chosen when the program starts. It is empty where the compiler or a
+// sanitizer does not support this. BALLAST_IN_LOOP marks a function that its loops call: it is
+// inlined into each version and compiled for that instruction set.
 
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__) && !defined(__clang__)

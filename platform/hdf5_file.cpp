@@ -17,9 +17,9 @@
 namespace ballast {
 
 /// The disk as HDF5 sees it while it makes a file: one that never fills up. HDF5 cannot recover
-/// from a write that fails: a dataset that is closed by its destructor would lose a chunk without a
-/// word, handles would stay open, and the end of the program would try again. So it is told that
-/// every write went well; the first failure is kept, and Hdf5Writer::check() throws it.
+/// from a failed write: a dataset that is closed by its destructor would lose a chunk silently,
+/// handles would stay open, and the end of the program would try again. So every write reports
+/// success; the first failure is kept, and Hdf5Writer::check() throws it.
 struct Hdf5Disk {
   AtomicFile file;
   int descriptor = file.descriptor();
@@ -28,12 +28,12 @@ struct Hdf5Disk {
 
 namespace {
 
-/// Number of entries.
+/// The number of entries.
 unsigned long long product(const Hdf5Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }
 
-/// UTF-8 of any length.
+/// The HDF5 type of UTF-8 texts of any length.
 Hdf5Id text_type() {
   Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, H5T_VARIABLE);
@@ -41,20 +41,20 @@ Hdf5Id text_type() {
   return type;
 }
 
-/// The space of an array of that shape.
+/// The HDF5 dataspace of an array of that shape.
 Hdf5Id space_of(const Hdf5Shape& shape) {
   return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
 }
 
-/// Selects as many entries of `space` as whole rows along its first dimension, from row `first` on,
-/// and returns their shape. Throws Error "<file>: HDF5 cannot <action>" when there are no such
+/// Selects `entries` entries of `space` as whole rows along its first dimension, from row `first`
+/// on, and returns their shape. Throws Error "<file>: HDF5 cannot <action>" when there are no such
 /// rows.
 Hdf5Shape select_rows(const Hdf5File& file, const Hdf5Id& space, size_t first, size_t entries,
                       const std::string& action) {
   Hdf5Shape count(static_cast<size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
   H5Sget_simple_extent_dims(space, count.data(), nullptr);
   if (count.empty()) file.fail("HDF5 cannot " + action);
-  // Some rows along the first dimension, all of the others.
+  // The selection is some rows along the first dimension and all of the others.
   Hdf5Shape start(count.size(), 0);
   const unsigned long long rows = count[0], row = product({count.begin() + 1, count.end()});
   start[0] = first;
@@ -69,15 +69,15 @@ hid_t open_for_reading(const Hdf5File& file, const std::filesystem::path& path) 
   if (access(path.c_str(), R_OK) != 0 && errno != ENOENT && errno != ENOTDIR)
     throw_file_error(path, "open");
   if (!is_file(path)) file.fail(is_there(path) ? "not a regular file" : "no such file");
-  // The signature first, so that a text file and a truncated HDF5 file get different answers.
+  // The signature is checked first: a text file and a truncated HDF5 file get different messages.
   if (H5Fis_hdf5(path.c_str()) <= 0) file.fail("not an HDF5 file");
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) file.fail("damaged or truncated HDF5 file");
   return id;
 }
 
-/// A file as HDF5 has it open. `given`: up to where HDF5 has given the file's addresses away;
-/// `length`: up to where something was written.
+/// A file that HDF5 has open. `given`: the end of the addresses that HDF5 has allocated; `length`:
+/// the end of the bytes that were written.
 struct OpenFile : H5FD_t {
   std::shared_ptr<Hdf5Disk> disk;
   haddr_t given = 0, length = 0;
@@ -100,7 +100,7 @@ herr_t write_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size,
   return 0;
 }
 
-/// What stands there; zeros behind the end, and for what was not written.
+/// Reads the bytes there; zeros beyond the end and where nothing was written.
 herr_t read_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size, void* buffer) {
   std::memset(buffer, 0, size);
   Hdf5Disk& disk = *of(file).disk;
@@ -109,7 +109,7 @@ herr_t read_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, size_t size, v
   return 0;
 }
 
-/// The file ends where the last address was given away.
+/// Makes the file end at the last allocated address.
 herr_t end_file(H5FD_t* file, hid_t, hbool_t) {
   OpenFile& open = of(file);
   if (open.disk->error == 0 && open.length != open.given &&
@@ -134,7 +134,7 @@ hid_t register_driver() {
     delete &of(file);
     return 0;
   };
-  // The way HDF5 shares room out is that of its own drivers for single files.
+  // HDF5 allocates space in the way of its own drivers for single files.
   driver.query = [](const H5FD_t*, unsigned long* features) -> herr_t {
     *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
                 H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
@@ -154,7 +154,7 @@ hid_t register_driver() {
   return H5FDregister(&driver);
 }
 
-/// A list of properties for what is made, which says nothing of the time of day.
+/// A property list for objects to be created, which stores no time of day.
 Hdf5Id timeless(hid_t kind) {
   Hdf5Id properties(H5Pcreate(kind), H5Pclose);
   H5Pset_obj_track_times(properties, false);
@@ -171,7 +171,7 @@ hid_t create_file(const std::shared_ptr<Hdf5Disk>& disk) {
   return H5Fcreate("on our disk", H5F_ACC_TRUNC, creation, access);
 }
 
-constexpr hsize_t chunk_bytes = 1 << 16;  // of compressed data; a sixteenth is stored as it is
+constexpr hsize_t chunk_bytes = 1 << 16;  // one chunk; datasets up to 1/16 of it stay plain
 constexpr unsigned deflate_level = 4;
 
 hid_t type_of(Hdf5Number number) {
@@ -183,12 +183,12 @@ hid_t type_of(Hdf5Number number) {
 
 }  // namespace
 
-// What the header says in place of HDF5's own types.
+// The header has these types in place of HDF5's own.
 static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int> &&
               std::is_same_v<hsize_t, Hdf5Shape::value_type>);
 
 Hdf5File::Hdf5File(const std::filesystem::path& path) : path_(path) {
-  // HDF5 would print its error stack to stderr; what went wrong is said by an Error instead.
+  // HDF5 would print its error stack to stderr; Error reports failures instead.
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
@@ -204,7 +204,7 @@ std::int64_t Hdf5File::check(std::int64_t result, const std::string& action) con
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
     : Hdf5File(file), file_(open_for_reading(*this, file), H5Fclose) {}
 
-/// Asks group after group: HDF5 fails on a path whose parent is missing.
+/// Checks group after group, because HDF5 fails on a path whose parent is missing.
 bool Hdf5Reader::has(const std::string& name) const {
   for (size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
@@ -227,8 +227,8 @@ Hdf5Shape Hdf5Reader::shape(const std::string& name) const {
   return shape;
 }
 
-/// Before memory is asked for: a damaged header can claim any number of entries. What is stored of
-/// them is part of the file, and no compression of HDF5's makes it more than 1032 times smaller.
+/// Checks the size before memory is allocated: a damaged header can claim any number of entries.
+/// Stored bytes are part of the file, and HDF5's compressions shrink data 1032 times at most.
 void Hdf5Reader::require_stored(const std::string& name, const Hdf5Id& dataset,
                                 unsigned long long entries) const {
   constexpr unsigned long long most_compressed = 1032;
@@ -243,7 +243,7 @@ void Hdf5Reader::require_stored(const std::string& name, const Hdf5Id& dataset,
 template <typename Value>
 std::vector<Value> Hdf5Reader::read(const std::string& name,
                                     std::optional<std::size_t> expected) const {
-  // What is stored may have any width or byte order: HDF5 converts it while reading.
+  // The stored type may have any width or byte order: HDF5 converts it while reading.
   const hid_t type = std::is_same_v<Value, double> ? H5T_NATIVE_DOUBLE
                      : std::is_same_v<Value, int>  ? H5T_NATIVE_INT
                                                    : H5T_NATIVE_UINT64;
@@ -305,7 +305,7 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
   require_stored(name, dataset, count);
   std::vector<char*> pointers(count, nullptr);
   check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "read " + name);
-  // HDF5 allocated each text: copied, then given back to it. What was never written is null.
+  // HDF5 allocated each text: it is copied and given back. A text never written is null.
   std::vector<std::string> texts;
   for (const char* text : pointers) texts.emplace_back(text ? text : "");
   H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
@@ -360,7 +360,7 @@ Hdf5Id Hdf5Writer::make_dataset(const std::string& name, std::int64_t type, cons
     H5Pset_shuffle(creation);
     if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) H5Pset_deflate(creation, deflate_level);
     H5Pset_fletcher32(creation);
-    // Of a dataset that is filled bit by bit so much waits for the rest of its chunk.
+    // So much of a dataset that is filled step by step is cached until a chunk is whole.
     H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, 4 * chunk_bytes,
                        H5D_CHUNK_CACHE_W0_DEFAULT);
   }

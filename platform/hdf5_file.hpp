@@ -1,10 +1,10 @@
 #pragma once
-// The little of HDF5's C interface that records and problem files need, without its header. Every
+// The part of HDF5's C interface that records and problem files need, without its header. Every
 // failure is an Error that begins with the file and names the dataset; HDF5 itself prints nothing.
 //
-// Why not H5Cpp, which Debian has too: it wraps neither a driver of our own nor the switch that
-// leaves times of day out, so half of the writer would be C all the same; its header costs 0.3 s in
-// each includer (this one: none of HDF5's), its library is one more package.
+// H5Cpp, which Debian has too, is not used: it wraps neither a driver of our own nor the switch
+// that leaves times of day out, so half of the writer would be C all the same; its header costs 0.3
+// s in each includer (this one: none of HDF5's), and its library is one more package.
 
 #include <cstdint>
 #include <filesystem>
@@ -28,7 +28,7 @@ class Hdf5Id {
   Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Hdf5Id& operator=(Hdf5Id&&) = delete;
   operator std::int64_t() const { return id_; }
-  /// Closes it now; negative when that fails.
+  /// Closes the handle at once; returns a negative number when that fails.
   int close() { return close_(std::exchange(id_, -1)); }
 
  private:
@@ -39,7 +39,7 @@ class Hdf5Id {
 /// Sizes along the dimensions (hsize_t).
 using Hdf5Shape = std::vector<unsigned long long>;
 
-/// What Hdf5Reader and Hdf5Writer share: the name for errors. HDF5 itself is silent from then on.
+/// Base of Hdf5Reader and Hdf5Writer: keeps the name for errors, and silences HDF5 itself.
 class Hdf5File {
  public:
   /// Throws Error "<file>: <what>".
@@ -49,29 +49,29 @@ class Hdf5File {
   explicit Hdf5File(const std::filesystem::path& path);
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
-  /// `result`, unless it is negative: then Error "<file>: HDF5 cannot <action>".
+  /// Returns `result`. Where it is negative, throws Error "<file>: HDF5 cannot <action>".
   std::int64_t check(std::int64_t result, const std::string& action) const;
 
   const std::filesystem::path path_;
 };
 
-/// Reads an HDF5 file, whoever wrote it. Numbers are converted from whatever type they have.
+/// Reads an HDF5 file of any origin. Numbers are converted from any stored type.
 class Hdf5Reader : public Hdf5File {
  public:
   explicit Hdf5Reader(const std::filesystem::path& file);
 
   bool has(const std::string& name) const;
   Hdf5Shape shape(const std::string& name) const;
-  /// All entries of a dataset of numbers: Value is double, int or std::uint64_t. Where there are
-  /// others than `expected`, it is refused before it takes memory.
+  /// All entries of a dataset of numbers; Value is double, int or std::uint64_t. A dataset with
+  /// another number of entries than `expected` is refused before memory is allocated.
   template <typename Value>
   std::vector<Value> read(const std::string& name,
                           std::optional<std::size_t> expected = std::nullopt) const;
   /// The only entry of a dataset.
   int read_int(const std::string& name) const;
-  /// As Hdf5Writer::add_text left it.
+  /// A text as Hdf5Writer::add_text stores it.
   std::string read_text(const std::string& name) const;
-  /// `count` rows from row `first` on: what one number along the first dimension names is a row.
+  /// `count` rows from row `first` on. A row has one index along the first dimension.
   std::vector<double> read_rows(const std::string& name, size_t first, size_t count = 1) const;
   std::vector<std::string> read_texts(const std::string& name) const;
 
@@ -114,7 +114,7 @@ class Hdf5Writer : public Hdf5File {
   void add(const std::string& name, std::span<const std::uint64_t> values, const Hdf5Shape& shape) {
     add(name, Hdf5Number::uint64, values.data(), shape);
   }
-  /// One dimension.
+  /// A dataset of one dimension.
   template <typename Value>
   void add(const std::string& name, const std::vector<Value>& values) {
     add(name, std::span<const Value>(values), {values.size()});
@@ -123,11 +123,11 @@ class Hdf5Writer : public Hdf5File {
   /// One text, stored with its length.
   void add_text(const std::string& name, const std::string& text);
 
-  /// A dataset that is filled bit by bit with numbers that are given as doubles: rows are what one
-  /// number along its first dimension names.
+  /// Makes a dataset that write_rows() fills step by step with numbers that are given as doubles. A
+  /// row has one index along the first dimension.
   Hdf5Id add_rows(const std::string& name, const Hdf5Shape& shape,
                   Hdf5Number number = Hdf5Number::float64);
-  /// Whole rows, from row `first` on.
+  /// Writes whole rows, from row `first` on.
   void write_rows(const Hdf5Id& dataset, size_t first, std::span<const double> values);
 
   /// Makes the file safe on disk and renames it over the target. All datasets handed out must be
@@ -135,7 +135,7 @@ class Hdf5Writer : public Hdf5File {
   void commit();
 
  private:
-  /// What the disk failed with goes before what HDF5 failed with.
+  /// As Hdf5File::check(), but a failure of the disk takes precedence over one of HDF5.
   std::int64_t check(std::int64_t result, const std::string& action) const;
   Hdf5Id make_dataset(const std::string& name, std::int64_t type, const Hdf5Shape& shape,
                       Hdf5Storage storage);

@@ -10,18 +10,18 @@ namespace ballast {
 namespace {
 
 std::atomic<bool> interrupted{false};
-// The only kind that a signal handler may touch.
+// A signal handler may only touch an atomic that is lock-free.
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-int guards = 0;                             // that are alive
-void (*pipe_before)(int signal) = SIG_DFL;  // what SIGPIPE did before the first
+int guards = 0;                             // number of guards alive
+void (*pipe_before)(int signal) = SIG_DFL;  // SIGPIPE's handler before the first guard
 
 constexpr int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
 extern "C" void on_signal(int signal) {
   interrupted = true;
-  // Whoever asks twice does not want to wait for a checkpoint. A terminal that closes and a batch
-  // system may say it several times without meaning that.
+  // A user who asks twice does not want to wait for a checkpoint. A terminal that closes and a
+  // batch system may send their signal several times without meaning that.
   if (signal == SIGINT || signal == SIGTERM) std::signal(signal, SIG_DFL);
 }
 
@@ -46,7 +46,7 @@ InterruptGuard::~InterruptGuard() {
 bool InterruptGuard::requested() { return interrupted; }
 
 void prepare_standard_streams() {
-  // open() takes the lowest number that is free: what is below is open by then.
+  // open() takes the lowest free number: all numbers below are open by then.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) != stream) break;
   std::signal(SIGXFSZ, SIG_IGN);

@@ -1,14 +1,14 @@
 #pragma once
-// What signals and closed streams do to this process. Ctrl-C, kill, a closed terminal, a batch
-// system's warning are asked for once per step, so that a run ends at a step with a checkpoint.
+// Handling of signals and closed streams. Ctrl-C, kill, a closed terminal and a batch system's
+// warning are polled once per step, so that a run ends at a step with a checkpoint.
 
 namespace ballast {
 
 /// Catches SIGINT, SIGTERM, SIGHUP (unless it is ignored, as under nohup) and SIGUSR1 (Slurm's
 /// warning before a time limit) while alive; a second SIGINT or SIGTERM ends the program at once.
-/// SIGPIPE is ignored meanwhile: who stops reading what a run prints does not end the run. A guard
-/// within another's life changes nothing: what was asked for holds until the outer one ends. One
-/// thread makes them.
+/// SIGPIPE is ignored meanwhile: a reader that stops reading the output does not end the run. A
+/// guard within another's life changes nothing: a request holds until the outer guard ends. All
+/// guards are made by one thread.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -19,7 +19,7 @@ class InterruptGuard {
   static bool requested();
 };
 
-/// What every program of ours does first, before it opens a file:
+/// Prepares the process; every program of ours calls this first, before it opens a file:
 ///
 /// - Standard input, output and error that were closed (`>&-`, a daemon) are opened on /dev/null.
 ///   The next file that is opened would otherwise get their number, and all that is printed would

@@ -1,6 +1,6 @@
 #pragma once
-// Values <-> bytes, for files and for answers of child processes. One list of members, a template
-// on the carrier, serves both ways, so that what is read is what was written:
+// Converts values to bytes and back, for files and for answers of child processes. One template on
+// the carrier lists the members and serves both directions, so that reading matches writing:
 //
 //   template <class Carrier, class State>
 //   void carry(Carrier& carrier, State& state) {
@@ -13,7 +13,7 @@
 //   carry(packer, state);                         carry(unpacker, state);
 //   write_whole_file(file, packer.bytes());       unpacker.finish();
 //
-// Numbers have this machine's size and byte order. Texts and lists are led by their length, 64
+// Numbers have this machine's size and byte order. Texts and lists begin with their length, 64
 // bits.
 
 #include <cstdint>
@@ -70,9 +70,9 @@ class Packer {
   std::string bytes_;
 };
 
-/// Takes from `bytes`, which outlive it, in the order in which they were packed. Nothing is read or
-/// allocated beyond what is there: where bytes are missing it throws Error
-/// "<origin> is inconsistent: a list has a wrong length".
+/// Takes values from `bytes`, which must outlive it, in the order in which they were packed.
+/// Nothing is read or allocated beyond the bytes that are there: where bytes are missing it throws
+/// Error "<origin> is inconsistent: a list has a wrong length".
 class Unpacker {
  public:
   Unpacker(std::string_view bytes, std::string origin) : rest_(bytes), origin_(std::move(origin)) {}
@@ -105,15 +105,15 @@ class Unpacker {
     for (std::size_t count = length(1); count > 0; --count) each(values.emplace_back());
   }
 
-  /// What the reader knows of the values besides: throws the same Error when it does not hold.
+  /// Checks another condition that the reader knows; throws the same Error when it does not hold.
   void require(bool consistent) const {
     if (!consistent) throw Error(origin_ + " is inconsistent: a list has a wrong length");
   }
-  /// Nothing is left over.
+  /// Requires that no bytes are left over.
   void finish() const { require(rest_.empty()); }
 
  private:
-  /// Of a list whose entries take `least` bytes or more.
+  /// The length of a list whose entries take at least `least` bytes each.
   std::size_t length(std::size_t least) {
     std::uint64_t count = 0;
     number(count);
@@ -131,7 +131,7 @@ class Unpacker {
   std::string origin_;
 };
 
-// Small binary files that are read whole or refused: what they are, in which format, and a
+// Small binary files that are read whole or refused. They hold their kind, their format and a
 // checksum.
 //
 //   magic (8 letters), u32 format, u32 byte order, u64 bytes of the body, body, u64 checksum
@@ -143,12 +143,12 @@ struct SealedKind {
   std::uint32_t format;    ///< written and read
 };
 
-/// Written to a neighbour, made safe on disk, renamed. Throws Error.
+/// Writes to a neighbour, makes that safe on disk and renames it. Throws Error.
 void write_sealed_file(const std::filesystem::path& file, const SealedKind& kind,
                        std::string_view body);
 
-/// The body. Throws Error naming the file: missing, of another kind or format, truncated, checksum
-/// wrong.
+/// Returns the body. Throws Error naming the file where it is missing, truncated, of another kind
+/// or format, or has a wrong checksum.
 std::string read_sealed_file(const std::filesystem::path& file, const SealedKind& kind);
 
 }  // namespace ballast

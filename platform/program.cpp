@@ -34,8 +34,8 @@ namespace {
   throw Error(std::string("cannot start a child process: ") + std::strerror(errno));
 }
 
-/// A descriptor that is closed with its owner, and not left open in other programs. Throws Error
-/// when there is none.
+/// Owns a descriptor and closes it; other programs do not inherit it. Throws Error when there is
+/// none.
 struct Descriptor {
   explicit Descriptor(int opened) : number(opened) {
     if (number < 0) throw_no_child();
@@ -59,12 +59,12 @@ struct MemoryFile : Descriptor {
   }
 };
 
-/// Behind an answer that is whole: a child that dies on the way leaves less.
+/// Ends an answer that is whole: a child that dies on the way leaves less.
 constexpr std::string_view whole_answer = "\x1bwhole answer\x1b";
 
 bool expendable = false;
 
-/// In the child: the answer goes into the file, everything that is printed nowhere.
+/// Runs in the child: writes the answer into the file and discards all that is printed.
 void answer_into(int file, const std::function<std::string()>& work) {
   expendable = true;
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -86,7 +86,7 @@ ChildResult run_in_child(double max_seconds, const std::function<std::string()>&
   const double pause = is_cancelled ? 0.05 : max_seconds;
   while (!child.ends_within(std::min(pause, max_seconds - watch.seconds())))
     if (watch.has_passed(max_seconds) || (is_cancelled && is_cancelled()))
-      return {ChildEnd::out_of_time, ""};  // and is killed
+      return {ChildEnd::out_of_time, ""};  // the destructor kills the child
   std::string answer = file.text();
   if (!answer.ends_with(whole_answer)) return {ChildEnd::crashed, ""};
   answer.resize(answer.size() - whole_answer.size());
@@ -129,7 +129,7 @@ void ChildProcess::send(int signal) const {
 
 namespace {
 
-/// As a shell says it, of what waitpid() found.
+/// The status as a shell reports it, from waitpid()'s `how`.
 int status_of(int how) { return WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how); }
 
 }  // namespace
@@ -159,13 +159,13 @@ bool ChildProcess::ends_within(double seconds) {
 
 namespace {
 
-/// How many threads OpenBLAS and OpenMP take. CHOLMOD asks for four whatever the second says: they
-/// wait for each other, spinning, wherever another program has a core. The third forbids it.
+/// Limits OpenBLAS and OpenMP to one thread. CHOLMOD asks for four whatever the second says: they
+/// spin, waiting for each other, wherever another program has a core. The third forbids it.
 constexpr const char* one_algebra_thread[] = {"OPENBLAS_NUM_THREADS=1", "OMP_NUM_THREADS=1",
                                               "OMP_THREAD_LIMIT=1"};
 
-/// Words or variables as exec wants them, ended by a null: made before the fork, after which no
-/// memory may be asked for when there are threads. They point to what they are made of.
+/// Words or variables as exec takes them, ended by a null. They are made before the fork: when
+/// there are threads, no memory may be allocated after it. They point into their sources.
 using Words = std::vector<const char*>;
 
 Words words_of(Words words, const std::vector<std::string>& arguments) {
@@ -185,7 +185,7 @@ Words changed_environment(std::initializer_list<std::string_view> dropped, Words
   return added;
 }
 
-/// Those of one_algebra_thread of which our environment says nothing.
+/// The variables of one_algebra_thread that our environment does not set.
 Words unsaid_threads() {
   Words unsaid;
   for (const std::string_view variable : one_algebra_thread)
@@ -194,7 +194,7 @@ Words unsaid_threads() {
   return unsaid;
 }
 
-/// In the child: becomes the program. Returns errno when it cannot.
+/// Runs in the child: becomes the program. Returns errno when it cannot.
 int become(const Words& words, const Words& environment, int input, int output, int errors) {
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
@@ -212,7 +212,7 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
                           double seconds) {
   constexpr rlim_t most_bytes = 256u << 20;
   const MemoryFile output, errors;
-  // Nothing that changes what gnuplot writes.
+  // The environment has nothing that changes the output of gnuplot.
   const Words words = words_of({program.c_str()}, arguments),
               environment = changed_environment({"LC_ALL=", "GNUPLOT", "GNUTERM="}, {"LC_ALL=C"});
   ChildProcess child([&] {
@@ -254,8 +254,8 @@ namespace {
 
 constexpr size_t longest_line = 4096, longest_complaint = 8192;  // bytes that are kept
 
-/// Two ends of a connection, and both directions of it: what is written to one is read at the
-/// other. Sockets, because writing to one that nobody reads is an error here and not a signal.
+/// The two ends of a connection in both directions: bytes written to one are read at the other.
+/// They are sockets, because writing to one that nobody reads is an error here and not a signal.
 struct Ends {
   Ends() {
     int ends[2];
@@ -266,11 +266,11 @@ struct Ends {
   int ours, theirs;
 };
 
-/// In the supervisor, to which every orphan of the program falls: kills its children until there
+/// Runs in the supervisor, which adopts every orphan of the program: kills its children until there
 /// are none, and ends.
 [[noreturn]] void end_descendants(int status) {
   do {
-    // The kernel lists them, each followed by a blank; what does not fit is met in the next round.
+    // The kernel lists them, each followed by a blank; those that do not fit are in the next round.
     char list[4096];
     const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
     const ssize_t size = read(file, list, sizeof list - 1);
@@ -286,12 +286,12 @@ struct Ends {
   _exit(status);
 }
 
-/// In the supervisor: ends with the status of the program, which `become_program` makes of a child,
-/// and when it is asked to.
+/// Runs in the supervisor: lets `become_program` turn a child into the program, and ends with the
+/// program's status or when it is asked to.
 template <class Become>
 [[noreturn]] void supervise(const Become& become_program) {
-  // From here on SIGTERM clears up. Its parent's death is one. It adopts who loses a parent, and is
-  // out of reach of the terminal's Ctrl-C.
+  // From here on SIGTERM clears up; the parent's death sends one. The supervisor adopts orphans,
+  // and its own session puts it out of reach of the terminal's Ctrl-C.
   signal(SIGTERM, [](int) { end_descendants(128 + SIGKILL); });
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -314,7 +314,7 @@ template <class Become>
   end_descendants(status_of(how));
 }
 
-/// Takes what is there, at most once; closes a descriptor whose other end has been closed.
+/// Reads what is there, at most once; closes a descriptor whose other end has been closed.
 void take(int& descriptor, std::string& text) {
   char block[1 << 16];
   const ssize_t got = read(descriptor, block, sizeof block);
@@ -347,7 +347,7 @@ SupervisedProgram::SupervisedProgram(const std::string& command,
     if (limits.folder.empty() || chdir(limits.folder.c_str()) == 0)
       become(words, environment, talk.theirs, talk.theirs, errors.theirs);
   };
-  // Two of them: where one is killed without a word, the other clears up.
+  // There are two supervisors: where one is killed, the other clears up.
   supervisor_ =
       std::make_unique<ChildProcess>([&] { supervise([&] { supervise(become_program); }); });
   close(talk.theirs);
@@ -373,9 +373,9 @@ bool SupervisedProgram::write_line(const std::string& line) const {
 
 void SupervisedProgram::close_input() const { shutdown(talk_, SHUT_WR); }
 
-/// Waits until it says something or closes its streams, and takes that; false when nothing came.
+/// Waits until it writes something or closes its streams, and reads that; false when nothing came.
 bool SupervisedProgram::listen(double seconds) {
-  // Having closed them it may go on: then its end is looked for every millisecond.
+  // It may go on after it has closed them: its end is then polled every millisecond.
   const double most = talk_ < 0 && errors_ < 0 ? 0.001 : 0.1;
   pollfd waiting[] = {{talk_, POLLIN, 0}, {errors_, POLLIN, 0}};
   const bool came =
@@ -395,7 +395,7 @@ SupervisedProgram::Heard SupervisedProgram::read_line(std::string& line, double 
       heard_.erase(0, end + 1);
       return Heard::line;
     }
-    // A line without end: only its beginning will be asked for.
+    // Of a line without end only the beginning is kept.
     if (heard_.size() > longest_line) heard_.resize(longest_line);
     if (talk_ < 0) return Heard::end;
     const double left = seconds - watch.seconds();
@@ -410,7 +410,7 @@ bool SupervisedProgram::wait(double seconds) {
     if (!(left > 0.0) || InterruptGuard::requested()) return false;
     listen(left);
   }
-  while (listen(0.0)) {  // what it said before it ended
+  while (listen(0.0)) {  // reads what it wrote before it ended
   }
   return true;
 }
@@ -436,8 +436,8 @@ std::string last_line(const fs::path& log) {
 
 std::string shell_word(const std::string& word) {
   if (is_plain(word, "_-./=+:,@%")) return word;
-  // Within single quotes a shell takes everything as it is but the quote itself, which
-  // is put in from outside of them.
+  // Within single quotes a shell takes every character as it is but the quote itself, which is
+  // added outside of them.
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + '\'';
@@ -452,7 +452,7 @@ std::string shell_line(const std::vector<std::string>& words) {
 fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
 
 std::vector<std::string> own_words() {
-  // Each is followed by a zero.
+  // Each word is followed by a zero.
   std::vector<std::string> words = split(read_whole_file("/proc/self/cmdline"), '\0');
   words.pop_back();
   return words;

@@ -1,7 +1,7 @@
 #pragma once
-// Seeded random numbers, the same on every machine: integer arithmetic and additions only, where
-// the standard library's distributions may differ from one library to the next.
-// (RandomNumbers::log_uniform also asks libm for a power: its last bit may differ.)
+// Seeded random numbers, the same on every machine: they use integer arithmetic and additions only,
+// where the standard library's distributions may differ from one library to the next.
+// (RandomNumbers::log_uniform also calls libm's pow, whose last bit may differ.)
 
 #include <bit>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace ballast {
 
-/// splitmix64 (Steele, Lea, Flood 2014): one word of state, gives each 64-bit number once. It fills
-/// the state of Random, and is enough for a shuffle.
+/// splitmix64 (Steele, Lea, Flood 2014): has one word of state and yields each 64-bit number once.
+/// It fills the state of Random, and is enough for a shuffle.
 class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
@@ -75,12 +75,12 @@ class RandomNumbers : public Words {
   }
 };
 
-/// The generator to use. Packings depend on every bit of it. Directions and rotations:
+/// The generator to use; packings depend on every bit of it. Random directions and rotations are in
 /// geometry/shape/pose.hpp.
 using Random = RandomNumbers<Xoshiro256>;
 
-/// What made problems (problems/algebra/known_solutions) are drawn with: a case "known:7" of a
-/// published table is the same problem today.
+/// The generator of made problems (problems/algebra/known_solutions): a case "known:7" of a
+/// published table must stay the same problem.
 using ProblemRandom = RandomNumbers<SplitMix64>;
 
 }  // namespace ballast

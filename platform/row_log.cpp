@@ -11,16 +11,16 @@
 namespace ballast {
 namespace {
 
-constexpr std::uint64_t largest_row = std::uint64_t{1} << 32;  // numbers: 300 million bodies
+constexpr std::uint64_t largest_row = std::uint64_t{1} << 32;  // numbers, as of 300 million bodies
 
-/// What a file begins with, before the SafeMark (row_log.hpp).
+/// The beginning of a file, before the SafeMark (row_log.hpp).
 struct FixedHeader {
   char magic[8] = {'B', 'A', 'L', 'L', 'R', 'O', 'W', 'S'};
   std::uint32_t version = 1, byte_order = 0x01020304;
   std::uint64_t row_size = 0, owner = 0, text_length = 0;
 };
 static_assert(sizeof(FixedHeader) == 40);
-constexpr size_t kind_bytes = 16;  // of the header: the same in all files
+constexpr size_t kind_bytes = 16;  // of the header, the same in all files
 
 template <class Object>
 std::string_view bytes_of(const Object& object) {
@@ -31,8 +31,8 @@ std::string_view bytes_of(std::span<const double> row) {
   return {reinterpret_cast<const char*>(row.data()), row.size_bytes()};
 }
 
-/// How many rows are safe, at its fixed place after the header's fixed part: it alone is written
-/// again.
+/// The number of safe rows, at its fixed place after the header's fixed part. Only this mark is
+/// written again.
 struct SafeMark {
   std::uint64_t rows, checksum;
   explicit SafeMark(std::uint64_t count = 0) : rows(count), checksum(fnv1a(bytes_of(rows))) {}
@@ -42,7 +42,7 @@ std::uint64_t header_checksum(const FixedHeader& fixed, std::string_view text) {
   return fnv1a(text, fnv1a(bytes_of(fixed)));
 }
 
-/// With the row's number, so that rows that changed places are found as well.
+/// Includes the row's number, so that rows that changed places are found as well.
 std::uint64_t row_checksum(long number, std::span<const double> row) {
   return fnv1a(bytes_of(row), fnv1a(bytes_of(static_cast<std::uint64_t>(number))));
 }
@@ -72,7 +72,7 @@ RowReader::RowReader(const std::filesystem::path& file)
     refuse("is damaged: the checksum of its count of rows is wrong");
   const std::uintmax_t bytes = std::filesystem::file_size(path_);
   if (fixed.text_length > bytes) refuse("is truncated in its header");
-  // A row has a number at least; the bytes of one can be counted.
+  // A row has at least one number, and its size in bytes does not overflow.
   if (fixed.row_size == 0 || fixed.row_size > largest_row)
     refuse("is damaged: a row of " + std::to_string(fixed.row_size) + " numbers");
   header_ = {std::string(fixed.text_length, ' '), fixed.owner, fixed.row_size};
@@ -88,7 +88,7 @@ RowReader::RowReader(const std::filesystem::path& file)
   if (safe_count_ < 0 || row_count_ < safe_count_)
     refuse("is truncated: " + std::to_string(row_count_) + " rows of " +
            std::to_string(safe_count_) + " are there");
-  // Memory only for a row that the file is long enough for.
+  // Memory is allocated only for a row that the file is long enough for.
   if (row_count_ > 0) values_.resize(header_.row_size);
 }
 
@@ -100,7 +100,6 @@ void RowReader::read(void* data, size_t bytes) {
 }
 
 std::span<const double> RowReader::next() {
-  // Behind the last row: nothing.
   if (row_ == row_count_) return {};
   std::uint64_t checksum;
   read(values_.data(), values_.size() * sizeof(double));
@@ -135,7 +134,7 @@ RowWriter::RowWriter(const std::filesystem::path& file, const RowReader& reader,
       file_(open_file(file, "r+b", "write")),
       row_size_(reader.header().row_size),
       row_count_(kept) {
-  mark_safe(kept);  // before the cut: never more safe rows than there are
+  mark_safe(kept);  // before the cut, so that no more rows are marked safe than there are
   const long end = static_cast<long>(reader.header_bytes() + kept * row_bytes(row_size_));
   errno = 0;
   if (ftruncate(fileno(file_.get()), end) != 0) throw_file_error(path_, "cut back");
@@ -153,7 +152,7 @@ void RowWriter::append(std::span<const double> row) {
 }
 
 void RowWriter::flush() {
-  // The rows first, then the promise that they are there.
+  // The rows are made safe first, then the mark that says so.
   sync_to_disk(file_.get(), path_);
   mark_safe(row_count_);
 }

@@ -1,14 +1,13 @@
 #pragma once
-// Append-only file of fixed-size rows of doubles: what a run that may be killed at any moment
-// writes into.
+// Append-only file of fixed-size rows of doubles, for a run that may be killed at any moment.
 //
 //   magic "BALLROWS", u32 version, u32 byte order, u64 doubles per row, u64 owner, u64 length of
 //   text, u64 safe, u64 checksum of safe, text, u64 checksum of all of this without safe, then
 //   rows: doubles, u64 checksum of the row's number and its doubles.
 //
-// The first `safe` rows have been made safe on disk: that one of them is cut off or damaged is an
-// error. What follows them is taken as long as it is whole: the end of a log after a power cut may
-// be anything.
+// The first `safe` rows have been made safe on disk: it is an error when one of them is cut off or
+// damaged. The rows after them are read up to the first that is not whole: the end of a log after a
+// power cut may hold anything.
 
 #include <cstdint>
 #include <cstdio>
@@ -22,20 +21,20 @@
 namespace ballast {
 
 struct RowLogHeader {
-  std::string text;         ///< what the rows are: names of columns
+  std::string text;         ///< the kind of rows and the names of their columns
   std::uint64_t owner = 0;  ///< key of what the rows belong to
   size_t row_size = 0;      ///< doubles per row
 };
 
 using OpenedFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-/// Reads rows from the first. Every defect is an Error that names the file.
+/// Reads rows from the first one on. Every defect is an Error that names the file.
 class RowReader {
  public:
   explicit RowReader(const std::filesystem::path& file);
 
   const RowLogHeader& header() const { return header_; }
-  /// Rows that must be there, and those that the file is long enough for.
+  /// The number of rows that must be there, and of rows that the file is long enough for.
   long safe_count() const { return safe_count_; }
   long row_count() const { return row_count_; }
   /// Bytes before the first row.
@@ -56,17 +55,17 @@ class RowReader {
   std::vector<double> values_;
 };
 
-/// Appends rows. Buffered: rows are safe after flush().
+/// Appends rows. They are buffered, and safe on disk after flush().
 class RowWriter {
  public:
   /// Creates the file, or replaces it.
   RowWriter(const std::filesystem::path& file, const RowLogHeader& header);
-  /// Continues a file after its first `kept` rows; what follows them is cut off. `reader` has read
-  /// that file so far.
+  /// Continues a file after its first `kept` rows and cuts off the rows after them. `reader` has
+  /// read that file so far.
   RowWriter(const std::filesystem::path& file, const RowReader& reader, long kept);
 
   void append(std::span<const double> row);
-  /// Everything so far on disk.
+  /// Makes all rows so far safe on disk.
   void flush();
   long row_count() const { return row_count_; }
 

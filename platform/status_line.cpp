@@ -18,8 +18,8 @@ StatusLine::Style StatusLine::style_of_stderr() {
 void StatusLine::write(const std::string& text) {
   if (style_ == Style::quiet) return;
   open_ = style_ == Style::bar;
-  // The terminal goes back to the first column, wipes the line, and cuts what is longer than it: a
-  // line that is continued in a second one could not be rewritten.
+  // The terminal goes back to the first column, wipes the line, and cuts text that is longer than
+  // it: a line that continues in a second one could not be rewritten.
   if (open_)
     out_ << "\r\x1b[K\x1b[?7l" << text << "\x1b[?7h" << std::flush;
   else

@@ -1,5 +1,5 @@
 #pragma once
-// A line that says how far something is: rewrites itself on a terminal, is written now and then
+// A line that shows progress: it is rewritten in place on a terminal, and written from time to time
 // elsewhere.
 
 #include <iosfwd>
@@ -20,11 +20,11 @@ class StatusLine {
   StatusLine& operator=(const StatusLine&) = delete;
 
   Style style() const { return style_; }
-  /// Between two lines [s]: often where the line rewrites itself.
+  /// Time between two lines [s]; short where the line is rewritten.
   double interval() const { return style_ == Style::bar ? 0.1 : 10.0; }
 
   void write(const std::string& text);
-  /// Ends the line that is being rewritten, if one is: to be called before anything else is
+  /// Ends the line that is being rewritten, if there is one. Must be called before anything else is
   /// printed.
   void end();
 

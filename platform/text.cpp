@@ -12,7 +12,7 @@ std::string printed(const char* format, ...) {
   std::va_list arguments, again;
   va_start(arguments, format);
   va_copy(again, arguments);
-  // Once to learn the length, once to write: a list of arguments can be read only once.
+  // The first call gives the length, the second writes: a list of arguments can be read only once.
   const int length = std::vsnprintf(nullptr, 0, format, arguments);
   va_end(arguments);
   std::string text(length > 0 ? static_cast<size_t>(length) : 0, '\0');

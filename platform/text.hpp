@@ -10,20 +10,20 @@
 
 namespace ballast {
 
-/// What printf would write, however long.
+/// Returns the text that printf would write, however long.
 std::string printed(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
 /// Appends to a list that is written "one, two, three".
 void add_to_list(std::string& list, std::string_view item);
 
-/// `text` with every control character, line ends among them, as `shown`: what is quoted from a
-/// file may hold any.
+/// `text` with every control character, line ends included, replaced by `shown`: text that is
+/// quoted from a file may hold any.
 std::string one_line(std::string_view text, char shown);
 
 /// Every `from` in the text becomes `to`.
 void replace_all(std::string& text, std::string_view from, std::string_view to);
 
-/// Levenshtein's distance: letters to insert, to leave out and to replace.
+/// Levenshtein's distance: the least number of letters to insert, to leave out and to replace.
 size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The words with ", " between them.
@@ -39,22 +39,22 @@ std::string joined(const Words& words) {
   return list;
 }
 
-/// The name of an enumerator, where `names` has one for each in their order; else "unknown".
+/// The name of an enumerator; `names` has one for each, in their order. Otherwise "unknown".
 template <class Enum, std::size_t count>
 const char* name_in(const char* const (&names)[count], Enum value) {
   const auto place = static_cast<std::size_t>(value);
   return place < count ? names[place] : "unknown";
 }
 
-/// What stands between the separators: one more than there are of them.
+/// The parts between the separators: one more than there are separators.
 std::vector<std::string> split(std::string_view text, char separator);
 
-/// Letters and digits of ASCII and `also` alone, at least one.
+/// True where `text` is not empty and has only ASCII letters, digits and characters of `also`.
 bool is_plain(std::string_view text, std::string_view also);
-/// With _ in place of every other byte.
+/// The text with _ in place of every other byte.
 std::string made_plain(std::string text, std::string_view also);
 
-/// The number that all of `text` is, without blanks; nothing when it is none.
+/// All of `text` as a number, without blanks; nothing when it is none.
 template <class Number>
 std::optional<Number> parsed(std::string_view text) {
   Number value{};
@@ -64,7 +64,7 @@ std::optional<Number> parsed(std::string_view text) {
 }
 
 /// ", did you mean "incline"?" for the one of `words` that `word` was probably meant to be: at most
-/// two letters, or a third of them, are missing, too many or others. Empty where none is that near.
+/// two letters, or a third, are missing, too many or different. Empty where none is that near.
 template <typename Words>
 std::string did_you_mean(std::string_view word, const Words& words) {
   std::string_view nearest;
@@ -77,14 +77,14 @@ std::string did_you_mean(std::string_view word, const Words& words) {
   return nearest.empty() ? "" : ", did you mean \"" + std::string(nearest) + "\"?";
 }
 
-/// The number that all of `text` is, blanks around it apart; nothing when it is none. "nan" and
-/// "inf" are numbers.
+/// All of `text` as a number, without blanks around it; nothing when it is none. "nan" and "inf"
+/// are numbers.
 std::optional<double> parsed_number(std::string_view text);
 
 /// "59 s", "3 min 05 s", "2 h 10 min"; "?" when it is not known.
 std::string duration_text(double seconds);
 
-// Keys of what a cached result depends on: 64-bit FNV-1a, as 16 hexadecimal digits.
+// Keys of the inputs of a cached result: 64-bit FNV-1a, as 16 hexadecimal digits.
 
 inline std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325ull) {
   for (unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3ull;

@@ -7,12 +7,12 @@
 namespace ballast {
 namespace {
 
-/// Pauses before the core is offered to others; some microseconds.
+/// The number of pauses before the core is offered to others; they take some microseconds.
 constexpr int spins = 200;
-/// Then, between two looks at the clock of whoever waits.
+/// The number of yields after that between two looks at the clock.
 constexpr int looks = 16;
-/// Longer than what one thread does alone between two phases of a time step: waking up takes longer
-/// than a short phase [s].
+/// The time that a thread waits awake [s]: longer than the work of one thread between two phases of
+/// a time step, because waking up takes longer than a short phase.
 constexpr double wakeful = 2e-3;
 
 inline void pause() {
@@ -21,8 +21,8 @@ inline void pause() {
 #endif
 }
 
-/// Until `is_over()`; the core goes to others early, as one of them may be the one that is waited
-/// for. False when it took longer than `most` seconds.
+/// Waits until `is_over()`. The core goes to others early, as the thread that is waited for may
+/// need it. False when it took longer than `most` seconds.
 template <class Over>
 bool wait_awake(double most, const Over& is_over) {
   for (int spin = 0; spin < spins; ++spin) {
@@ -50,7 +50,7 @@ void WorkerTeam::resize(int threads) {
   stop();
   members_ = size_ = threads;
   shares_ = std::make_unique<Share[]>(static_cast<size_t>(threads));
-  // Taken here, not by the thread: one that starts late must not miss the first round.
+  // The round is read here, not by the thread: one that starts late must not miss the first round.
   const Marked seen = task_.round.load();
   for (int member = 1; member < threads; ++member)
     workers_.emplace_back([this, member, seen] { work(member, seen); });
@@ -75,35 +75,35 @@ void WorkerTeam::start(int parts, Call call, const void* context) {
   task_.context = context;
   left_.store(parts, std::memory_order_relaxed);
   task_.round.store(round, std::memory_order_release);
-  // Who falls asleep at this moment may be missed: the others do its parts.
+  // A member that falls asleep at this moment may be missed: the caller does its parts.
   if (asleep_.load(std::memory_order_relaxed) > 0) {
     bell_.fetch_add(1, std::memory_order_release);
     bell_.notify_all();
   }
-  // The caller's own parts, then those that the others have not begun.
+  // The caller does its own parts, then those that the others have not begun.
   for (int member = 0; member < members_; ++member) do_parts(member, round);
   wait_awake(1e30, [&] { return left_.load(std::memory_order_acquire) == 0; });
 }
 
-/// Those of `member`'s parts that nobody has taken yet, the same parts whoever does them.
+/// Does those of `member`'s parts that nobody has taken yet; they are the same whoever does them.
 void WorkerTeam::do_parts(int member, Marked round) {
   const Marked number = round >> number_bits, parts = round % (Marked{1} << number_bits);
   const Marked members = static_cast<Marked>(members_),
                begin = static_cast<Marked>(member) * parts / members,
                end = (static_cast<Marked>(member) + 1) * parts / members;
   std::atomic<Marked>& taken = shares_[static_cast<size_t>(member)].taken;
-  // Told to the others at the end, once: they may be far away.
+  // The count is published once, at the end: the other cores may be far away.
   int done = 0;
   while (true) {
     Marked now = taken.load(std::memory_order_acquire);
     const Marked marked = now >> number_bits;
     if (marked > number) break;  // this round is over
-    // A share that was last touched in an earlier round is whole.
+    // A share that was last touched in an earlier round has all its parts left.
     const Marked count = marked == number ? now % (Marked{1} << number_bits) : 0;
     const Marked part = begin + count;
     if (part >= end) break;
-    // As long as this part is not taken and done the round goes on: whoever takes it does so in
-    // this round, and finds its task.
+    // The round goes on until this part is taken and done: the thread that takes it does so in this
+    // round, and finds its task.
     if (!taken.compare_exchange_weak(now, (number << number_bits) + count + 1,
                                      std::memory_order_acq_rel))
       continue;
@@ -115,7 +115,7 @@ void WorkerTeam::do_parts(int member, Marked round) {
 
 void WorkerTeam::work(int member, Marked seen) {
   while (true) {
-    // Awake for a short while, in which the next task usually comes; then asleep until it does.
+    // Waits awake for a short while, in which the next task usually comes; then sleeps.
     Marked now = seen;
     const auto has_come = [&] {
       return (now = task_.round.load(std::memory_order_acquire)) != seen;
@@ -135,7 +135,7 @@ void WorkerTeam::work(int member, Marked seen) {
 
 void TeamPace::took(double seconds, double amount) {
   if (seconds > long_work) {
-    // As after a trial that the whole team has won: shorter rounds between long ones begin none.
+    // As after a trial won by the whole team: shorter rounds between long ones begin no trial.
     is_whole_ = true;
     whole_ = 0.0;
     round_ = 2 * trial;

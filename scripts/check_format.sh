@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every source is what .clang-format makes of it. Mend with: scripts/check_format.sh --fix
+# Checks that every source is as .clang-format makes it. To mend: scripts/check_format.sh --fix
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 mode=(--dry-run -Werror)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# clang-tidy with the checks of .clang-tidy. Headers cost most of its time, so the sources are read
-# in four large batches. Tests are left out: clang 14 does not take all the C++20 that they use.
+# Runs clang-tidy with the checks of .clang-tidy. Headers cost most of its time, so four large
+# batches hold the sources, without tests: clang 14 does not take all the C++20 that these use.
 #
 #   scripts/check_tidy.sh [words of file names]: only batches of a room that holds one of the words
 set -euo pipefail
@@ -16,7 +16,7 @@ flags=$(grep -o -E -e '-(I|D|isystem )[^" ]+' -e '-std=[^" ]+' "$commands" | sor
 sources=$(grep -o '"file": "[^"]*"' "$commands" | cut -d'"' -f4 | grep -E "$words" | sort |
   grep -v -e /precompiled/ -e '/build/tidy/[^U]*$' -e /tests/)
 
-# batches: writes the batches, and prints them and what is compiled with flags of its own
+# batches: writes the batches, and prints them and the sources with flags of their own
 batches() {
   local place=0 source part
   rm -f build/tidy/part_*.cpp

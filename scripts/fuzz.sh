@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets (tests/fuzz) and runs each for some seconds, as many at a time as there
-# are cores; prints executions and findings. Exit code 1 when there is one.
+# are cores; prints executions and findings. Exit code 1 when there is a finding.
 #
 #   scripts/fuzz.sh SECONDS [TARGET...]      TARGET: scene, mesh, fclib, ... ; none: all
 #   scripts/fuzz.sh build                    only builds them
 #   scripts/fuzz.sh table                    what all runs of this folder did, target by target
 #
-# The next run goes on where the last one was: what was learnt is kept in build/fuzz/corpus/<target>,
-# and runs of a minute or more reduce it to the inputs that are needed.
+# The next run continues from the last: its inputs are kept in build/fuzz/corpus/<target>, and runs
+# of a minute or more reduce them to those that are needed.
 # An input that breaks something is left in build/fuzz/findings/<target>; run it again with
 # build/fuzz/bin/<target>_fuzz FILE.
-# JOBS=1 runs one target at a time. SEED=N makes the inputs those of the last run with N, as far as
-# the time goes; without it every run tries others. OPTIMISE=-O0 builds in two thirds of the time
-# what then makes half as many executions: for a short look.
+# JOBS=1 runs one target at a time. SEED=N gives the inputs of the last run with N, as far as the
+# time goes; without it every run tries others. OPTIMISE=-O0 builds in two thirds of the time, but
+# the targets make half as many executions: for a short look.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:?"usage: scripts/fuzz.sh SECONDS [TARGET...] | build | table"}
@@ -53,7 +53,7 @@ run_one() {
   covered=$(sed -n 's/^#.* cov: \([0-9]*\).*/\1/p' "$log" | tail -n 1)
   printf '%-12s %10s executions in %s s, %s of %s edges: %s\n' "$name" "${runs:-?}" "$seconds" \
     "${covered:-?}" "${edges:-?}" "$([ $found = 0 ] && echo none || echo "a finding, see $log")"
-  # where nobody can open the log: what was found, and the input
+  # prints the finding and the input, for where nobody can open the log
   [ $found = 0 ] || grep -v -e '^#[0-9]*\s[A-Z]' -e '# Uses:' "$log" | tail -n 40 | cut -c1-2000
   [ $found = 1 ] || [ "$seconds" -lt 60 ] || reduce_corpus
   printf '%s,%s,%.1f,%s,%s,%s,%s,%s\n' "$(date +%F)" "$name" \
@@ -62,7 +62,7 @@ run_one() {
   [ $found = 0 ]
 }
 
-# Of inputs that reach the same, the smallest is kept.
+# Keeps the smallest of the inputs that reach the same code.
 reduce_corpus() {
   rm -rf "$corpus.reduced"
   mkdir "$corpus.reduced"

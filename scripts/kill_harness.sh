@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Kills the program with -9 at random moments of what it can be doing - run, deposit, plan, compare,
-# paper, collect, archive - and lets it go on, again and again, until each ends. What it leaves must
-# have the bits of an undisturbed one.
+# Kills the program with -9 at random moments of each activity - run, deposit, plan, compare, paper,
+# collect, archive - and restarts it, again and again, until it ends. The results must have the bits
+# of an undisturbed run.
 #
 #   scripts/kill_harness.sh [--kills N] [--seed S] [--only "run compare"] [--ballast PROGRAM]
 #                           [--report FILE]
@@ -56,7 +56,7 @@ vary = [["contact.friction=0.2", "contact.friction=0.4"]]
 steps = "every=50,steps=1"
 LIST
 
-# begin ACTIVITY FOLDER: becomes the program at this work.
+# begin ACTIVITY FOLDER: replaces the shell by the program at this activity.
 begin() {
   case $1 in
     run) exec "$ballast" run vibrated_box_small "${small[@]}" --set scene.duration=0.4 \
@@ -75,15 +75,15 @@ begin() {
   esac
 }
 
-# columns FILE PATTERN: a table without the columns whose names match. A comma within quotation
-# marks separates nothing.
+# columns FILE PATTERN: prints a table without the columns whose names match. A comma within
+# quotation marks does not separate cells.
 columns() {
   sed -E ':a; s/^(([^"]*"[^"]*")*[^"]*"[^",]*),/\1;/; ta' "$1" |
     awk -F, -v drop="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) keep[i] = $i !~ drop }
       { line = ""; for (i = 1; i <= NF; ++i) if (keep[i]) line = line "," $i; print line }'
 }
 
-# bits ACTIVITY FOLDER: what must be the same, as one line for each thing.
+# bits ACTIVITY FOLDER: prints checksums of all results that must be the same, one per line.
 bits() {
   (cd "$2" && case $1 in
     compare) columns results.csv 'seconds|memory|runs|key|note' | md5sum ;;
@@ -101,7 +101,7 @@ bits() {
   esac)
 }
 
-# fill_disks ACTIVITY: begins it on disks of which all are too small; prints one line.
+# fill_disks ACTIVITY: begins it on disks that are all too small; prints one line.
 fill_disks() {
   local disk=$folder/disk log=$folder/$1.log needed level size code refused=0 went_on=0
   needed=$(du -sk "$folder/$1.whole" | cut -f1)

@@ -40,8 +40,8 @@ install_packages() {
     die "could not install: $missing"
 }
 
-# show_progress LOG: copies the build's output into LOG and says how far it is, on a terminal on one
-# line that rewrites itself, elsewhere a line for every tenth.
+# show_progress LOG: copies the build's output into LOG and shows how far it is: on a terminal in
+# one line that rewrites itself, elsewhere in a line for every tenth.
 show_progress() {
   local line done_count all left last=0 begin=$SECONDS
   while IFS= read -r line; do

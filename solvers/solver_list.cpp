@@ -14,7 +14,7 @@ constexpr const char *suitesparse = "libsuitesparse-dev", *ipopt = "coinor-libip
                      *nlopt = "libnlopt-dev", *siconos = "libsiconos-numerics-dev";
 
 /// Every backend, as if all libraries were there: name, description, law, maker, library, limit.
-/// The description ends with what only this row answers.
+/// The description ends with the property that sets this row apart.
 constexpr SolverEntry rows[] = {
     {"auto", "ours, recommended: sweeps where they are enough, Newton where not",
      ContactLaw::coulomb, [] { return make_auto(); }, suitesparse},
@@ -81,7 +81,7 @@ std::vector<std::string> all_names() {
 }  // namespace
 
 std::span<const SolverEntry> solver_list() {
-  // Without a maker where this build lacks the library.
+  // A backend whose library this build lacks has no maker.
   static const std::vector<SolverEntry> list = [] {
     std::vector<SolverEntry> found(std::begin(rows), std::end(rows));
     for (SolverEntry& entry : found)

@@ -1,5 +1,5 @@
 #pragma once
-// The one register of backends. Tests, bench, figures and help enumerate it.
+// The only list of backends. Tests, bench, figures and help enumerate it.
 
 #include <span>
 #include <string_view>
@@ -14,14 +14,14 @@ struct SolverEntry {
   ContactLaw law;
   SolverMaker make;          ///< null: built without the library it needs
   const char* package = "";  ///< Debian's name of the library it needs; empty: none
-  /// Contacts of the largest problems that it promises to take, as it keeps dense matrices; more it
-  /// may decline (UnsupportedProblem). 0: of any size.
+  /// The largest number of contacts that the backend is sure to take, as it keeps dense matrices.
+  /// It may refuse more (UnsupportedProblem). 0: no limit.
   int largest = 0;
 };
 
 std::span<const SolverEntry> solver_list();
 
-/// An unknown name, or a backend whose library is absent; what() lists what there is.
+/// An unknown name, or a backend whose library is absent; what() lists all names.
 class UnknownSolver : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

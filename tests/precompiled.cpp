@@ -1,1 +1,1 @@
-// Nothing: this file is there for the precompiled header of its target.
+// This file is empty: it exists for the precompiled header of its target.

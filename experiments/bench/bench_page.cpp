@@ -32,23 +32,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of what the page says; bench_all() puts the file's name before it.
+/// An error in the page; bench_all() puts the file's name before it.
 struct PageError final : Error {
   using Error::Error;
 };
 
-/// A command whose results the page shows. It is run so many times, by turns with the others, each
+/// A command whose results the page shows. It is run `turns` times, by turns with the others, each
 /// time into a folder of its own, "NAME/TURN".
 struct BenchStage {
   std::string name;
   int turns = 1;
-  std::vector<std::string> words;  ///< of this program; none: another one, BenchAll::beside
+  std::vector<std::string> words;  ///< for this program; none: BenchAll::beside is run
 };
 
 /// results.md, built into the program, or a file like it: a comment with a line "NAME xTURNS:
 /// WORDS" for each stage, then the page. `{{NAME}}` in it stands for the stage's command,
 /// `{{EXPRESSION}}` for a number:
-///   STAGE: MEASUREMENT         median over the turns of what read_stage() knows
+///   STAGE: MEASUREMENT         median over the turns of a number of read_stage()
 ///   EXPRESSION over EXPRESSION their ratio; a plain number is an expression too
 /// and `{{date}}`, `{{machine}}`, `{{commit}}` for where and when it was measured.
 struct BenchPage {
@@ -56,10 +56,10 @@ struct BenchPage {
   std::string text;
 };
 
-/// By stage and name: one value for each turn.
+/// The measured numbers by stage and name: one value for each turn.
 using StageNumbers = std::map<std::string, std::map<std::string, std::vector<double>>>;
 
-/// Words between blanks; a quoted one may hold some.
+/// The words of a line between blanks; a quoted word may contain blanks.
 std::vector<std::string> words_of(const std::string& line) {
   std::vector<std::string> words;
   std::istringstream stream(line);
@@ -67,7 +67,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-/// "NAME xTURNS: WORDS"
+/// Reads "NAME xTURNS: WORDS".
 BenchStage stage_of(const std::string& line) {
   const size_t colon = line.find(": ");
   const std::vector<std::string> head = words_of(line.substr(0, colon));
@@ -80,7 +80,7 @@ BenchStage stage_of(const std::string& line) {
   return {head[0], *turns, words.front() == "beside" ? std::vector<std::string>() : words};
 }
 
-/// Throws PageError: no stages, one that cannot be read, a place for a number that does not end.
+/// Throws PageError: no stages, a stage that cannot be read, a {{ without its }}.
 BenchPage read_bench_page(std::string_view file) {
   const std::string_view begin = "<!--\n", end = "-->\n";
   const size_t close = file.find(end);
@@ -103,7 +103,7 @@ fs::path folder_of(const BenchStage& stage, int turn) {
   return fs::path(stage.name) / std::to_string(turn);
 }
 
-/// As the page shows it, to be run where the page was.
+/// The stage's command as the page shows it, to be run where the page was.
 std::string command_of(const BenchStage& stage) {
   if (stage.words.empty()) return "another program, by turns";
   std::vector<std::string> words = stage.words;
@@ -112,13 +112,13 @@ std::string command_of(const BenchStage& stage) {
   return '`' + shell_line(words) + '`';
 }
 
-/// Ratios with two decimals, all else in three digits.
+/// Ratios below 10 get two decimals, numbers from 1000 on none, all others three digits.
 std::string shown(double value, bool is_ratio) {
   if (std::abs(value) >= 1000.0) return printed("%.0f", value);
   return printed(is_ratio && value < 10.0 ? "%.2f" : "%.3g", value);
 }
 
-/// NaN: not measured.
+/// The value of an expression. NaN: not measured.
 double value_of(const std::string& expression, const StageNumbers& numbers) {
   if (const size_t over = expression.rfind(" over "); over != std::string::npos)
     return value_of(expression.substr(0, over), numbers) /
@@ -128,14 +128,14 @@ double value_of(const std::string& expression, const StageNumbers& numbers) {
   if (colon == std::string::npos) throw PageError("{{" + expression + "}} is no number");
   const std::string stage = expression.substr(0, colon), name = expression.substr(colon + 2);
   const auto measured = numbers.find(stage);
-  if (measured == numbers.end()) return not_known;  // another program, and there is none
+  if (measured == numbers.end()) return not_known;  // for another program, and none is given
   const auto values = measured->second.find(name);
   if (values == measured->second.end()) throw PageError(stage + " measures no '" + name + "'");
   return quantile(values->second, 0.5);
 }
 
-/// `beside` names the mean over cases of a solver's time over the fastest other's, both `shift` [s]
-/// longer.
+/// Adds the numbers of a comparison. `beside` names the geometric mean over cases of a solver's
+/// time over that of the fastest other, both `shift` [s] longer.
 void add_comparison(std::span<const CompareRow> rows, double shift, const char* beside,
                     std::map<std::string, double>& numbers) {
   const double unsolved = std::log(limit_of(rows) + shift) - 1e-12;
@@ -168,7 +168,7 @@ void run_beside(const std::string& command, const fs::path& folder) {
   write_whole_file(folder / other_program, printed("%.17g\n", *number));
 }
 
-/// What the folder of a stage holds, by name: medians of a bench's measurements ("1 thread,
+/// The numbers in the folder of a stage, by name: medians of a bench's measurements ("1 thread,
 /// all/step"), numbers of a run's summary ("drive_seconds"), and of a comparison "auto to 0.0001,
 /// solved" [%], "auto to 0.0001, cases solved" and "auto to 0.0001, beside the others", the
 /// geometric mean over cases of its time over the fastest other backend's, both 10 us longer, or
@@ -195,13 +195,13 @@ std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path
   return numbers;
 }
 
-/// False: interrupted.
+/// Runs one turn of a stage that this program has not run yet. False: interrupted.
 bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
   const fs::path folder = folder_of(stage, turn), mark = folder / "measured_by";
   const std::string key = content_key(binary_key() + options.beside + command_of(stage)) + "\n";
   if (is_there(mark)) {
     if (read_whole_file(mark) == key) return true;
-    fs::remove_all(folder);  // of another program or command
+    fs::remove_all(folder);  // made by another program or command
   }
   std::cout << folder.string() << ": " << command_of(stage) << std::endl;
   create_folder(folder);
@@ -224,7 +224,7 @@ bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
   return true;
 }
 
-/// Of the turns that are there.
+/// The numbers of the turns that have been measured.
 StageNumbers numbers_of(const BenchPage& page) {
   StageNumbers all;
   for (const BenchStage& stage : page.stages)
@@ -235,8 +235,8 @@ StageNumbers numbers_of(const BenchPage& page) {
   return all;
 }
 
-/// Every number that stands between {{ and }}, by those words. Throws Error naming an expression
-/// that cannot be read.
+/// The text of every number of the page, by the words between {{ and }}. Throws Error naming an
+/// expression that cannot be read.
 std::map<std::string, std::string> page_numbers(const BenchPage& page,
                                                 const StageNumbers& numbers) {
   const Manifest here("bench all", own_words(), "");
@@ -257,7 +257,7 @@ std::map<std::string, std::string> page_numbers(const BenchPage& page,
   return result;
 }
 
-/// The page with numbers and commands put in; "–" for a number that there is not.
+/// The page with numbers and commands filled in; "–" for a missing number.
 std::string filled_page(const BenchPage& page, const std::map<std::string, std::string>& numbers) {
   return page::filled(page.text, [&](const std::string& words) -> std::string {
     const auto stage = std::ranges::find(page.stages, words, &BenchStage::name);

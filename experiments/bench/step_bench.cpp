@@ -80,7 +80,7 @@ std::string thread_words(int threads) {
   return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
-/// CPU ns per item of each repetition. The first call is not timed: it makes what others find.
+/// CPU ns per item of each repetition. The first call is not timed: it fills buffers and caches.
 std::vector<double> samples_of(const Kernel& kernel, const KernelBenchOptions& options) {
   kernel.call();
   std::vector<double> samples;
@@ -96,7 +96,7 @@ std::vector<double> samples_of(const Kernel& kernel, const KernelBenchOptions& o
   return samples;
 }
 
-/// What is said of a set of steps. `scale` [m/s]: g h.
+/// Adds the measurements of a set of steps. `scale` [m/s]: velocity_scale().
 void add_group(const std::string& group, const std::vector<const BenchStep*>& steps, double scale,
                std::vector<Measurement>& to) {
   if (steps.empty()) return;
@@ -128,7 +128,7 @@ void add_group(const std::string& group, const std::vector<const BenchStep*>& st
   column("penetration max", "um", &StepRecord::penetration_max, 1e6);
 }
 
-/// Steps a packing of the cache, and says what they took: the child's work.
+/// Steps a packing of the cache and measures the steps: the work of the child.
 void measure_packing(Scene scene, const std::filesystem::path& cache, const ScalingOptions& options,
                      ScalingPoint& point) {
   const std::string group = thread_words(point.threads) + printed(", %.0f grains", point.grains);
@@ -156,7 +156,7 @@ void measure_packing(Scene scene, const std::filesystem::path& cache, const Scal
   add("memory", "B/grain", {1048576.0 * (peak_memory_MB() - before) / point.grains});
 }
 
-/// What the child measured, on its way to the parent.
+/// Packs or unpacks the measurements that the child sends to the parent.
 template <class Carrier, class List>
 void carry(Carrier& carrier, List& measured) {
   carrier.list(measured, [&](auto& m) {
@@ -188,7 +188,7 @@ std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
     const auto work = std::make_shared<SweepWork>(*step, in_single);
     const std::string how = in_single ? " in float lanes" : "";
     add("sweep", "sweep" + how, [work] { work->sweep->sweep(); });
-    // What an iteration of nncg does between two looks at the error.
+    // The work of an iteration of nncg between two looks at the error.
     add("sweep", "sweep along a search" + how, [work] { work->sweep->sweep_along({0.1, 1.0}); });
     add("sweep", "error" + how, [work] { work->sweep->error(); });
   }

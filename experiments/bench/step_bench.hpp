@@ -1,7 +1,7 @@
 #pragma once
-// What a step costs. `ballast bench step`: whole steps of the driven box by phase of the step, with
-// counters. `ballast bench kernels`: the inner loops of a step on their own. `ballast bench
-// scaling`: the cost per grain of packings of the same kind and growing size.
+// The cost of a step. `ballast bench step` measures whole steps of the driven box by phase of the
+// step, with counters; `ballast bench kernels` the inner loops of a step on their own; `ballast
+// bench scaling` the cost per grain of packings of the same kind and growing size.
 
 #include <filesystem>
 #include <functional>
@@ -21,27 +21,27 @@ struct DepositedBox {
   Packing packing;
 };
 
-/// Throws Error: a scene without grains, or none.
+/// Resolves a scene. Throws Error where there is none, or it has no grains.
 Scene bench_scene(const std::string& name, const std::vector<std::string>& overrides);
 
-/// From `cache`, or deposited now and kept there (resumable). Throws Error: interrupted.
+/// Takes the packing from `cache`, or deposits and keeps it (resumable). Throws Error: interrupted.
 DepositedBox deposited_box(const Scene& scene, const std::filesystem::path& cache);
 
-/// The driven box at its first step.
+/// The driven box at the start of its first step.
 PreparedRun driven_start(const DepositedBox& box);
 
-/// The box as it has settled, behind walls that stand still.
+/// The settled box, behind walls that stand still.
 PreparedRun settled_start(DepositedBox box);
 
-/// One kernel: `call` is timed, and does `items` items.
+/// One kernel: `call` is timed, and processes `items` items.
 struct Kernel {
   std::string group, name, unit;  ///< unit: "ns/contact"
   double items = 1.0;
   std::function<void()> call;
 };
 
-/// Detection, assembly, judge and sweep at the last of `steps` steps of the driven box. What they
-/// work on lives in the closures.
+/// Kernels for detection, assembly, judge and sweep at the last of `steps` steps of the driven box.
+/// Their closures own the data.
 std::vector<Kernel> step_kernels(const DepositedBox& box, int steps);
 
 struct KernelBenchOptions {
@@ -50,7 +50,7 @@ struct KernelBenchOptions {
   int repeats = 5;
 };
 
-/// CPU time per item in ns. Throws std::invalid_argument when the filter fits no kernel.
+/// CPU time per item in ns. Throws std::invalid_argument when the filter matches no kernel.
 std::vector<Measurement> run_kernels(const std::vector<Kernel>& kernels,
                                      const KernelBenchOptions& options);
 
@@ -61,8 +61,8 @@ struct BenchStep {
   double cpu_seconds = 0.0;  ///< of the process, all threads
 };
 
-/// Steps the start `steps` times with the scene's settings and `threads`. Measures of a run that
-/// are not of the step (solid fraction, recording) are not in it.
+/// Steps `start` `steps` times with the scene's settings and `threads`. Measures of a run that are
+/// not part of the step (solid fraction, recording) are left out.
 std::vector<BenchStep> measure_steps(const Scene& scene, PreparedRun start, long steps,
                                      int threads);
 
@@ -73,29 +73,29 @@ std::vector<Measurement> step_measurements(const Scene& scene, const std::vector
                                            int threads);
 
 struct ScalingOptions {
-  std::vector<int> grains;  ///< wanted; what comes is the scene's grains times a number of tiles
+  std::vector<int> grains;  ///< wanted; each becomes a multiple of the scene's grains
   std::vector<int> threads{1};
   int warm_up = 5, steps = 10;  ///< of each packing
 };
 
-/// What was measured on one packing with one number of threads: by phase ns per grain and step,
-/// wall clock; memory beyond what the process had before. Group "<threads> threads, <grains>
+/// The measurements on one packing with one number of threads: by phase ns per grain and step, wall
+/// clock; memory beyond that which the process had before. Group "<threads> threads, <grains>
 /// grains".
 struct ScalingPoint {
   int threads = 1, nx = 1, ny = 1;
   double grains = 0.0;
   std::vector<Measurement> measured;
 
-  /// The median. NaN: not measured.
+  /// The median of a measurement. NaN: not measured.
   double value(const std::string& name) const;
 };
 
-/// Tiles nx * ny near grains / of_tile, as square as can be.
+/// Numbers of tiles nx and ny: nx * ny is near grains / of_tile, as square as can be.
 std::pair<int, int> tiles_for(long grains, int of_tile);
 
-/// Boxes of as many tiles (tiled_scene()) as have about the wanted grains, each
-/// deposited and then measured in child processes of at most a day, so that its memory is its own.
-/// `said` hears of each. Throws Error where a child fails: out of memory, out of time.
+/// Measures boxes of tiles (tiled_scene()) that have about the wanted grains. Each is deposited and
+/// then measured in child processes of at most a day, so that its memory is its own. `said` is
+/// called with each result. Throws Error where a child fails: out of memory, out of time.
 std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesystem::path& cache,
                                           const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The deposit's own step, solver and tolerance; of the scene only what the packing's key knows.
+/// The scene with the deposit's step, solver and tolerance: only settings in packing_key() matter.
 Scene stage_scene(const Scene& scene, BoxStage stage) {
   Scene staged = scene;
   staged.step = stage == BoxStage::settle ? scene.deposit.settle_step : scene.deposit.step;
@@ -41,13 +41,13 @@ class Depositor {
         fall_time_(std::sqrt(2.0 * fall_height() / deposit_gravity(scene).norm())) {}
 
   bool run() {
-    // Every stage goes on from the state that the one before has left. A deposit that was
-    // stopped goes on within its stage.
+    // Every stage starts from the last state of the stage before. A stopped deposit continues
+    // within its stage.
     //
     //     rain -- at rest --> press -- lid_time --> settle -- settle_time --> packing
     //
-    // Without a pressure of the lid there is no press. Of a tiled box the rain is what falls into
-    // the seams between the copies.
+    // Without a pressure of the lid there is no press. In a tiled box the rain is the fall of
+    // grains into the seams between the copies.
     const DepositSpec& spec = scene_.deposit;
     if (!continue_part()) start();
     if (stage_ == BoxStage::rain) {
@@ -56,7 +56,7 @@ class Depositor {
     }
     if (stage_ == BoxStage::press) {
       if (!steps(spec.lid_time)) return false;
-      // Pressed down, the lid itself says how high the packing is; then it is raised.
+      // The pressed lid marks the height of the packing; then it is raised.
       packing_.deposit.top = packing_.state.pose[lid()].position.z();
       enter(BoxStage::settle);
     }
@@ -85,8 +85,8 @@ class Depositor {
 
   size_t lid() const { return rain_.grains.size() + wall_lid; }
 
-  /// Each stage counts its time from zero. The lid comes down on the highest vertex to press, and
-  /// is raised to where it stays for good. It is moved there at rest.
+  /// Begins a stage, whose time counts from zero. To press, the lid is placed on the highest
+  /// vertex; to settle, it is raised to its final height. It is at rest there.
   void enter(BoxStage stage) {
     stage_ = stage;
     packing_.phase = name_of(stage);
@@ -110,11 +110,11 @@ class Depositor {
   }
 
   bool rests() const {
-    // nothing rests before what is highest has fallen
+    // the packing cannot be at rest before the highest grain has fallen
     return packing_.state.time > fall_time_ && rms_velocity_ < scene_.deposit.rest_velocity;
   }
 
-  /// From the top of the rain, or into a seam, which is as wide as a grain.
+  /// The fall from the top of the rain, or into a seam, which is as wide as a grain.
   double fall_height() const {
     if (!tile_) return rain_.height;
     double widest = 0.0;
@@ -123,23 +123,23 @@ class Depositor {
     return widest;
   }
 
-  /// Steps the current stage for `duration`, the rain until it rests. False: interrupted.
+  /// Steps the current stage for `duration`, the rain only until it rests. False: interrupted.
   bool steps(double duration) {
     const MechanicalSystem system = box_system(scene_, rain_, stage_, packing_.deposit.lid);
     const Scene staged = stage_scene(scene_, stage_);
     TimeStepper stepper(system, staged, -1);
     Stopwatch since_saved;
-    // also where the last step was saved, and none is left to measure it in
+    // needed where the last step of the stage was saved, so that the loop makes none
     rms_velocity_ = grain_rms_velocity(system, packing_.state);
     const long last = std::lround(duration / staged.step);
     while (packing_.state.step < last) {
       const StepRecord record = stepper.step(packing_.state, packing_.memory);
       rms_velocity_ = grain_rms_velocity(system, packing_.state);
       const bool goes_on = progress_(stage_, rms_velocity_, record);
-      // The state that ends a stage is never saved within it: who went on from there would make
-      // another step.
+      // The state at which the rain rests is never saved within the rain: a deposit continued from
+      // there would make another step.
       if (stage_ == BoxStage::rain && rests()) break;
-      // A checkpoint now and then, and one when it is to stop: the same call goes on there.
+      // A checkpoint is written at intervals and on a stop; the same call continues from it.
       if (!goes_on || since_saved.seconds() > scene_.record.checkpoint_seconds) {
         write_checkpoint(part_, packing_);
         since_saved.restart();
@@ -155,7 +155,7 @@ class Depositor {
   const DepositProgress& progress_;
   Packing& packing_;
   const Packing* tile_;
-  const double fall_time_;  // after those above, of which it is made [s]
+  const double fall_time_;  // [s]; after the members from which it is computed
   BoxStage stage_ = BoxStage::rain;
   double rms_velocity_ = 0.0;
 };
@@ -204,7 +204,7 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
     if (is_kept) say("packing from the cache: " + file.string());
     return is_kept;
   };
-  // without the lock: a packing that is there is whole
+  // no lock is needed: a packing that is there is complete
   if (find()) return true;
   create_folder(order.cache);
   // one process deposits, the others wait for it
@@ -223,7 +223,7 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   say("depositing " + std::to_string(rain.grains.size()) + " grains (kept in " + file.string() +
       ")");
   Progress progress(order.style);
-  // when the rain will rest nobody knows
+  // the duration of the rain is not known beforehand
   const double end[] = {std::numeric_limits<double>::quiet_NaN(), scene.deposit.lid_time,
                         scene.deposit.settle_time};
   const auto show = [&](BoxStage stage, double velocity, const StepRecord& record) {

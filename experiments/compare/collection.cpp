@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Rounded to single precision, so that the last bit of a machine's sines and powers is not in the
-/// problem. A mass block stays symmetric positive definite.
+/// Rounds entries to single precision, so that the last bit of a machine's sines and powers is not
+/// in the problem. A mass block stays symmetric positive definite.
 void round_entries(DynamicsForm& dynamics) {
   const auto round = [](auto& values) {
     for (double& value : values) value = static_cast<double>(static_cast<float>(value));
@@ -36,13 +36,13 @@ void round_entries(DynamicsForm& dynamics) {
 }
 
 /// The name of a made problem's file: "pile-c100-d0.3-R1-f0.3..0.3-a0.8-s1.hdf5". It begins with
-/// the family, as family_of_file() has it.
+/// the family, so that family_of_file() returns it.
 std::string made_name(const std::string& family, const std::string& case_name) {
   const std::string rest = case_name.substr(std::min(case_name.find('-'), case_name.size()));
   return made_plain(family + rest, "-._=+") + ".hdf5";
 }
 
-/// One collection under way.
+/// One collection while it is made.
 class Collection {
  public:
   explicit Collection(const CollectionOptions& options) : options_(options) {
@@ -107,7 +107,7 @@ class Collection {
     }
   }
 
-  /// Copies a problem to where it belongs, and notes what it is.
+  /// Copies a problem to its place, adds it to the manifest and looks for its reference.
   void keep(const std::string& family, const std::string& name, const fs::path& source) {
     const LoadedCase loaded = compare_cases({source.string()}).front().load();
     if (loaded.facts.contacts == 0 || !contents_.insert(loaded.facts.content).second) return;
@@ -119,17 +119,17 @@ class Collection {
                    file = options_.folder / (apart ? "held" : "problems") / place,
                    other = options_.folder / (apart ? "problems" : "held") / place;
     create_folder(file.parent_path());
-    fs::remove(other);  // where the part was kept otherwise before
+    fs::remove(other);  // left from another keeps_held_apart
     if (const std::string bytes = read_whole_file(source);
         !is_there(file) || read_whole_file(file) != bytes) {
-      fs::remove(reference_of(file));  // another problem's
+      fs::remove(reference_of(file));  // belongs to another problem
       write_whole_file(file, bytes);
     }
     note(place.string(), family, held, source, loaded);
     if (options_.reference_seconds > 0.0) refer(place.string(), file, loaded);
   }
 
-  /// A line of the manifest.
+  /// Adds a line to the manifest.
   void note(const std::string& name, const std::string& family, bool held, const fs::path& source,
             const LoadedCase& loaded) {
     const FrictionProblem& problem = loaded.problem;
@@ -153,12 +153,12 @@ class Collection {
         number_cell(warm_error, 6)});
   }
 
-  /// Finds the reference where none is there that is exact or had as much time, and notes it. What
-  /// an interrupt left is no result.
+  /// Finds the reference unless a stored one is exact or had as much time, and adds it to
+  /// references.csv. An interrupted search gives no result.
   void refer(const std::string& name, const fs::path& file, const LoadedCase& loaded) {
     const fs::path answer = reference_of(file);
     Reference known;
-    double had = 0.0;  // seconds
+    double had = 0.0;  // time limit of the stored reference [s]
     if (is_there(answer)) {
       const Hdf5Reader kept(answer);
       const auto number = [&](const char* entry) {
@@ -186,8 +186,8 @@ class Collection {
 
   const CollectionOptions& options_;
   CsvWriter manifest_, references_;
-  std::set<std::string> contents_;  ///< that were kept: each once
-  std::set<fs::path> names_;        ///< of their files, in their families
+  std::set<std::string> contents_;  ///< of the kept problems: each is kept once
+  std::set<fs::path> names_;        ///< family/file of the kept problems
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Values that vary together with all others': each text is one of them.
+/// One list of `vary`: each text is a value, combined with the values of all other lists.
 using Variation = std::vector<std::string>;
 
 /// An entry of the list.
@@ -42,7 +42,7 @@ std::vector<Variation> read_vary(TomlTable& table) {
 
 Entry read_entry(TomlTable& table, const std::vector<Entry>& before) {
   const std::string name = table.text("name"), like = table.text("like", "");
-  // A made problem's file begins with the name, and a comparison must find it there.
+  // A made problem's file begins with the name, from which a comparison takes its family.
   if (!is_plain(name, "_") || family_of_file(name) != name)
     table.fail("name", "\"" + name + "\": expected letters, digits and _, a letter last");
   Entry entry;
@@ -61,12 +61,12 @@ Entry read_entry(TomlTable& table, const std::vector<Entry>& before) {
   if (std::vector<Variation> axes = read_vary(table); !axes.empty()) entry.vary = std::move(axes);
   if (entry.scene.empty() == entry.made.empty())
     table.fail("scene", "expected either a scene or `made`, problems that are made");
-  if (entry.made.empty() && entry.steps.empty()) table.text("steps");  // says that it is missing
+  if (entry.made.empty() && entry.steps.empty()) table.text("steps");  // throws, as it is missing
   table.finish();
   return entry;
 }
 
-/// What varies, as a part of a name: the value of the first override.
+/// The part of a run's name for a text of `vary`: the value of the text's first override.
 std::string label_of(const std::string& text) {
   std::string label;
   for (const char c : split(text, ' ').front().substr(text.find('=') + 1))
@@ -78,7 +78,7 @@ std::string label_of(const std::string& text) {
   return label;
 }
 
-/// All combinations, the last axis changing fastest.
+/// Adds a run for each combination; the last axis changes fastest.
 void add_runs(const Entry& entry, size_t axis, CollectedRun run, std::vector<CollectedRun>& runs) {
   if (axis == entry.vary.size()) {
     const Scene scene = resolve_run(run.scene, run.overrides).scene;
@@ -102,7 +102,7 @@ void add_entry(const Entry& entry, std::vector<CollectedRun>& runs) {
   run.is_large = entry.part == "large";
   int number = 0;
   for (const std::string& word : entry.made) {
-    compare_cases({word});  // says what is wrong with it
+    compare_cases({word});  // throws for a wrong word
     run.made = word;
     run.name = entry.name + (run.is_large ? "-large-" : "-made-") + std::to_string(++number);
     runs.push_back(run);

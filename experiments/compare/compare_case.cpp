@@ -27,10 +27,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Above it a dense eigenvalue problem takes longer than some of the solves.
+/// With more rows a dense eigenvalue problem takes longer than some of the solves.
 constexpr int most_rows_for_eigenvalues = 1000;
 
-/// A hash goes on over plain numbers, led by how many bytes they are.
+/// Continues a hash with plain numbers: first their number of bytes, then the bytes.
 void add_to_hash(std::uint64_t& hash, const void* data, size_t bytes) {
   hash = fnv1a(std::string_view(reinterpret_cast<const char*>(&bytes), sizeof bytes), hash);
   hash = fnv1a(std::string_view(static_cast<const char*>(data), bytes), hash);
@@ -61,7 +61,7 @@ std::set<int> touched_bodies(const FrictionProblem& problem) {
   return touched;
 }
 
-/// Largest over smallest of what is > 0; 1 without any.
+/// The largest over the smallest mass, or lambda_max(W_cc), of those > 0; 1 without any.
 double mass_ratio(const FrictionProblem& problem, const std::set<int>& touched) {
   double least = HUGE_VAL, most = 0.0;
   const auto look_at = [&](double value) {
@@ -69,7 +69,7 @@ double mass_ratio(const FrictionProblem& problem, const std::set<int>& touched) 
     least = std::min(least, value);
     most = std::max(most, value);
   };
-  // a block's first entry: translations come first
+  // the mass is its block's first entry: translations come first
   for (const int body : touched)
     look_at(problem.dynamics.mass[static_cast<size_t>(problem.dynamics.mass_begin[body])]);
   if (!problem.has_dynamics) {
@@ -92,7 +92,7 @@ LoadedCase load_captured(const fs::path& file) {
   return loaded;
 }
 
-/// With the answer that is kept of the file, if one is.
+/// Adds the reference of the file, if there is one.
 LoadedCase with_reference(LoadedCase loaded, const fs::path& file) {
   if (const fs::path answer = reference_of(file); is_there(answer))
     loaded.exact = read_solution(answer, loaded.problem);
@@ -119,7 +119,7 @@ CompareCase file_case(const fs::path& file) {
     made.load = [file] { return with_reference(load_captured(file), file); };
     made.has_bodies = true;
   } catch (const std::exception&) {
-    // What cannot be read says so when it is loaded: it is one row, and the others go on.
+    // load() throws for a file that cannot be read: it is one row, and the others go on.
   }
   return made;
 }
@@ -127,7 +127,7 @@ CompareCase file_case(const fs::path& file) {
 // Problems that are made on the spot: manufactured ones with known solutions, piles, and those that
 // break solvers.
 
-/// "kind:what,name=value,...". Every setting must be asked for before finish().
+/// "kind:what,name=value,...". Every setting must be taken before finish().
 class MadeWord {
  public:
   explicit MadeWord(const std::string& word) : word_(word) {
@@ -140,15 +140,15 @@ class MadeWord {
       }
       const double value = parsed<double>(item.substr(equals + 1)).value_or(-1.0);
       if (!(value >= 0.0 && value <= 1e9)) fail(item + ": expected a number from 0 to 1e9");
-      values_[item.substr(0, equals)] = value;  // of settings that stand twice the later one holds
+      values_[item.substr(0, equals)] = value;  // the last of repeated settings holds
     }
   }
 
   const std::string& text() const { return word_; }
-  /// The word without a value; empty: none.
+  /// The item without a value; empty: none.
   const std::string& what() const { return what_; }
 
-  /// Sets `value` where the word does. Of what is counted there may be a million.
+  /// Sets `value` if the word gives it. Counts are at most a million by default.
   template <typename Number>
   void take(const char* name, Number& value, double least = 0.0,
             double most = std::is_integral_v<Number> ? 1e6 : 1e9) {
@@ -160,7 +160,7 @@ class MadeWord {
         static_cast<Number>(std::is_integral_v<Number> ? std::round(found->second) : found->second);
     values_.erase(found);
   }
-  /// Nothing may be left that nobody asked for.
+  /// Throws Error if a setting was not taken: there is no such setting.
   void finish() const {
     if (!values_.empty())
       fail(values_.begin()->first + ": no such setting; see ballast compare --help");
@@ -172,7 +172,7 @@ class MadeWord {
   std::map<std::string, double> values_;
 };
 
-/// As many cases as the word says, each of the next seed and with a word that makes it alone.
+/// Adds as many cases as the word says, each with the next seed and a word that makes it alone.
 template <typename Settings, typename Make>
 void add_seeded(MadeWord& word, Settings settings, const Make& make,
                 std::vector<CompareCase>& cases) {
@@ -208,7 +208,7 @@ void add_known_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   add_seeded(word, settings, make, cases);
 }
 
-/// "pile-c120-d0.4-R1000-f0.2..0.7-a0.8-s3", "-w" behind where only W is stored.
+/// "pile-c120-d0.4-R1000-f0.2..0.7-a0.8-s3", with "-w" at the end where only W is stored.
 CompareCase pile_case(const PileSettings& s) {
   const char* size = s.contacts < 20 ? "small" : s.contacts < 150 ? "mid" : "large";
   return {printed("pile-c%d-d%.2g-R%.2g-f%.2g..%.2g-a%.2g-s%llu%s", s.contacts, s.redundancy,
@@ -217,7 +217,7 @@ CompareCase pile_case(const PileSettings& s) {
           std::string("pile, ") + size, [s] { return load_case(make_pile(s)); }};
 }
 
-/// pile: with every setting given. pile:family: all drawn from seeds one after the other.
+/// pile: takes every setting from the word. pile:family draws all of them from successive seeds.
 void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
   if (word.what() == "family") {
     struct Family {
@@ -248,7 +248,7 @@ void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
   add_seeded(word, settings, pile_case, cases);
 }
 
-/// Every small problem.
+/// Adds all stress problems.
 void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   if (word.what() != "all") word.fail("expected stress:all");
   word.finish();
@@ -319,7 +319,7 @@ std::string content_of(const FrictionProblem& problem, const Impulses& start, do
 
 LoadedCase load_case(FrictionProblem problem, double velocity_scale, Impulses warm_start) {
   problem.validate();
-  // what the judge calls velocity scale: the rms of q; a problem at rest (q = 0) has none
+  // the judge's velocity scale is the rms of q; a problem at rest (q = 0) has none
   if (!(velocity_scale > 0.0))
     velocity_scale = contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
   if (!(velocity_scale > 0.0)) velocity_scale = 1.0;

@@ -20,23 +20,23 @@
 
 namespace ballast {
 
-std::string comparison_file(const std::string& name);  // of experiments/compare/answers
+std::string comparison_file(const std::string& name);  // in experiments/compare/answers
 
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Milliseconds or seconds; a dash for what is not finite.
+/// A time in microseconds, milliseconds or seconds; a dash where it is not finite.
 page::Text time_of(double seconds) {
   if (!std::isfinite(seconds)) return {"–", page::note};
   if (seconds < 1e-4) return page::quantity(1e6 * seconds, "µs");
   return seconds < 1.0 ? page::quantity(1e3 * seconds, "ms") : page::quantity(seconds, "s");
 }
 
-/// Backends side by side.
+/// The backends side by side.
 page::Table backends_table(const CompareTable& table) {
-  // nothing for what did not happen
+  // a count of 0 leaves its cell empty
   const auto if_any = [](int count) { return count == 0 ? page::Text() : page::exact(count); };
   page::Table result{.head = {"backend", "law", "solved", "mean time", "unsolved in it",
                               "over fastest", "timeouts", "crashes", "not taken", "no solution",
@@ -53,15 +53,15 @@ page::Table backends_table(const CompareTable& table) {
   return result;
 }
 
-/// Cases that could not be had, claims that the judge denies, crashes, memory, what is not taken,
-/// and whatever left a note.
+/// Unreadable cases, claims that the judge denies, crashes, lack of memory, problems that a backend
+/// does not take or that have no solution, and other unsolved rows with a note.
 page::Table failures_table(std::span<const CompareRow> rows) {
   page::Table result{.head = {"case", "backend", "tolerance", "what happened", "error"},
                      .is_number = {false, false, true, false, true}};
   std::set<std::string> told;
   for (const CompareRow& row : rows) {
     const Verdict v = row.verdict;
-    // What a backend does not take says why once, and so does a case without a solution.
+    // Each reason of a backend's refusals is listed once, and so is a case without a solution.
     const bool is_refused = v == Verdict::unsupported, has_none = v == Verdict::no_solution;
     const bool is_loud = is_refused || has_none || v == Verdict::denied || v == Verdict::crashed ||
                          v == Verdict::out_of_memory;
@@ -87,7 +87,7 @@ page::Text lede(std::span<const CompareRow> rows) {
                                       {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
 }
 
-/// What a comparison noted of its options in the manifest.
+/// The summary of a comparison in its manifest, with its options.
 page::Table options_table(const RunData& data) {
   page::Table table{.is_facts = true};
   if (const auto summary = data.manifest().find("summary"); summary != data.manifest().end())
@@ -111,7 +111,7 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
   page::Page page{.title = "Solvers of frictional contact, compared", .lede = {lede(tried)}};
   page.add(backends);
   page.add({"failures", "What must not happen", {failures_table(rows)}});
-  // What the page makes by itself in the reader's browser.
+  // The page makes these sections itself, in the reader's browser.
   if (page::can_answer())
     for (const auto& [id, heading] : {std::pair("matrix", "Every case by every backend"),
                                       {"profiles", "Profiles"},
@@ -124,15 +124,15 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
   return page;
 }
 
-/// In the order in which they build upon each other.
+/// In the order in which they depend on each other.
 constexpr std::array modules = {"rows.js",      "statistics.js", "asks.js",      "views.js",
                                 "histories.js", "details.js",    "comparison.js"};
 
-/// Points of all histories together: what a page can hold.
+/// The most points of all histories together that a page can hold.
 constexpr size_t most_points = 25000;
 
-/// The command of a row, as far as the options of the comparison are known; names in braces are
-/// filled in by the page.
+/// The command that makes a row again, as far as the options of the comparison are known. The page
+/// fills in the names in braces.
 std::string again(const RunData& data, const CompareRow& row) {
   std::string command =
       "ballast compare {case} --solvers {solver} --tolerances {tolerance} --starts {start} "
@@ -144,8 +144,8 @@ std::string again(const RunData& data, const CompareRow& row) {
   return command + " --output results/again";
 }
 
-/// Least error so far: seconds, prepare included, and error by turns, in the digits that a chart
-/// shows.
+/// The least errors so far: seconds (prepare included) and error in turn, with the digits that a
+/// chart shows.
 std::string history_text(const CompareRow& row, size_t limit) {
   std::vector<double> seconds, errors;
   for (const HistoryPoint& point : row.history) {
@@ -160,7 +160,7 @@ std::string history_text(const CompareRow& row, size_t limit) {
   return text;
 }
 
-/// A backend's summary under way.
+/// A backend's summary while solves are added to it.
 struct Tally {
   BackendSummary summary;
   std::vector<double> times, ratios;  ///< logarithms, shifted
@@ -192,7 +192,7 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
                {"shift", summary_shift},
                {"again", again(data, rows[0])}};
   const std::vector<std::string> names = compare_columns();
-  // A column is one text, a line a cell: a browser takes no time to read what is not asked.
+  // A column is one text with a line for each cell: the browser splits it when it is first read.
   std::vector<std::string> columns(names.size());
   std::string words, can_view, histories;
   const auto add = [](std::string_view cell, std::string& column) {

@@ -1,6 +1,6 @@
 #pragma once
-// The page of a comparison, compare.html; what it shares with the page of a closed loop; and the
-// comparison in a few lines for a terminal.
+// The page of a comparison, compare.html; the functions that it shares with the page of a closed
+// loop; and the comparison in a few lines for a terminal.
 
 #include <filesystem>
 #include <span>
@@ -19,26 +19,26 @@ void write_compare_page(const std::filesystem::path& folder, std::span<const Com
 /// The table of backends as text for a terminal.
 std::string compare_summary(std::span<const CompareRow> rows);
 
-/// What the comparison's page is given so that it answers in the reader's browser
+/// Returns the data and modules with which the page answers in the reader's browser
 /// (experiments/compare/answers): all rows, their histories, the command that makes a row again.
-/// Of at least one row.
+/// Needs at least one row.
 page::Answers comparison_answers(const RunData& data, std::span<const CompareRow> rows);
 
-/// manifest.json of a folder. Throws Error: missing, no JSON object.
+/// Reads manifest.json of a folder. Throws Error where it is missing or holds no JSON object.
 RunData read_origin(const std::filesystem::path& folder);
 
 /// Says on `page` which program and machine made it, draws its figures into figures/ beside `file`,
 /// and writes it there as HTML. Throws Error.
 void write_with_origin(page::Page page, const RunData& data, const std::filesystem::path& file);
 
-// Rows -> backends side by side: medians over repeats, means over cases. What the reader of the
-// page chooses of them is computed there (answers/statistics.js).
+// Rows -> backends side by side: medians over repeats, means over cases. The page itself computes
+// those of the reader's selection (answers/statistics.js).
 
 /// One backend on one case to one tolerance from one start, over its repeats.
 struct RepeatedSolve {
-  const CompareRow* row = nullptr;  ///< of the fastest repeat that solved it, else of the first
+  const CompareRow* row = nullptr;  ///< the fastest repeat that solved the case, else the first
   bool solved = true;               ///< in every repeat
-  double fastest = 0.0, median = 0.0, slowest = 0.0;  ///< [s], of the repeats if all are solved
+  double fastest = 0.0, median = 0.0, slowest = 0.0;  ///< [s]; 0 unless all repeats are solved
 };
 RepeatedSolve over_repeats(const std::vector<const CompareRow*>& repeats);
 
@@ -47,10 +47,10 @@ struct BackendSummary {
   std::string solver, law;
   int solved = 0, unsolved = 0, timeouts = 0, crashes = 0, unsupported = 0, no_solutions = 0,
       denied = 0;
-  double mean_seconds = 0.0;    ///< shifted geometric mean over all cases (summary_shift); the
-                                ///< `unsolved` ones in it count with the limit
-  double mean_ratio = 0.0;      ///< the same of time over the fastest backend's, over cases that
-                                ///< somebody solved; NaN: none
+  double mean_seconds = 0.0;  ///< shifted geometric mean over all cases (summary_shift), in which
+                              ///< an unsolved case counts as the limit [s]
+  double mean_ratio = 0.0;    ///< the same mean of time over the fastest backend's time, over cases
+                              ///< that some backend solved; NaN: none
   double largest_spread = 0.0;  ///< (slowest - fastest)/median over the repeats of a solved case
 };
 
@@ -66,14 +66,14 @@ struct CompareTable {
 /// Shift of the geometric means [s]: the smaller, the more the tiny problems count.
 inline constexpr double summary_shift = 1e-3;
 
-/// One table for each start and tolerance among the rows; loosest tolerance first. Unreadable cases
-/// are in none.
+/// Returns one table for each start and, loosest first, each tolerance among the rows.
+/// Unreadable cases are in none.
 std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows);
 
-/// How many different backends, cases, ... the rows have.
+/// Returns how many different backends, cases, ... the rows have.
 page::Text different(std::span<const CompareRow> rows, std::string CompareRow::*name);
 
-/// What an unsolved case counts: the largest limit of the rows.
+/// Returns the time that stands for an unsolved case: the largest limit of the rows [s].
 double limit_of(std::span<const CompareRow> rows);
 
 }  // namespace ballast

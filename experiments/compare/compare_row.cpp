@@ -26,11 +26,11 @@ Enum by_name(const char* const (&names)[count], const std::string& name, const c
   throw std::invalid_argument("'" + name + "' is no " + what + "; there are: " + joined(names));
 }
 
-/// Calls f(name, member) for every column: the one list that CSV, JSON and the child's
-/// message are written and read by.
+/// Calls f(name, member) for every column. This one list writes and reads the CSV, the JSON and the
+/// child's message.
 template <typename Row, typename F>
 void for_columns(Row& row, F&& f) {
-  double seconds = row.seconds();     // a sum: what is read into it is read again from its parts
+  double seconds = row.seconds();     // a sum: a row that is read takes its parts
   f("case", row.case_name);           // problem
   f("family", row.family);            // problems of one kind
   f("solver", row.solver);            // backend
@@ -47,7 +47,7 @@ void for_columns(Row& row, F&& f) {
   f("prepare_seconds", row.prepare_seconds);
   f("solve_seconds", row.solve_seconds);
   f("startup_seconds",
-    row.startup_seconds);  // making the solver, processes, a foreign library's form: in no other
+    row.startup_seconds);  // not in the others: solver, processes, a foreign library's form
   f("runs", row.runs);     // solves in the child
   f("iterations", row.iterations);
   f("natural_map_rms", row.judged.natural_map_rms);          // [m/s]
@@ -65,7 +65,7 @@ void for_columns(Row& row, F&& f) {
     row.distance.wall_force);  // of the force on the driven wall, as a part of the solution's
   f("statuses_wrong",
     row.distance
-        .statuses);  // contacts that are open, stick or slip otherwise; -1: no solution known
+        .statuses);  // contacts whose status (open, stick, slip) is wrong; -1: no solution known
   f("peak_memory_MB", row.peak_memory_MB);  // of the child
   f("contacts", row.facts.contacts);
   f("rows", row.facts.rows);
@@ -87,7 +87,7 @@ std::string text_of(Enum value) {
   return name_of(value);
 }
 
-/// JSON has no NaN: null.
+/// JSON has no NaN and no infinity: they become null.
 Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json json_of(int value) { return value; }
 template <typename Value>
@@ -98,7 +98,7 @@ Json json_of(const Value& value) {
 void take(const Json& json, double& value) {
   value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
-/// JSON's own conversion takes any number for a whole one, also what no int can hold.
+/// The library's own conversion accepts fractions and numbers that no int can hold.
 void take(const Json& json, int& value) {
   const double number = json.get<double>();
   if (number != std::floor(number) || std::abs(number) > std::numeric_limits<int>::max())
@@ -112,7 +112,7 @@ void take(const Json& json, Verdict& value) {
   value = by_name<Verdict>(verdict_names, json.get<std::string>(), "verdict");
 }
 
-/// Numbers that some row may have. Throws std::invalid_argument.
+/// Throws std::invalid_argument if a number is out of its column's range.
 void require_possible(const CompareRow& row) {
   const auto require = [](bool is_possible, const char* column) {
     if (!is_possible) throw std::invalid_argument(std::string(column) + " is out of range");
@@ -183,7 +183,7 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file,
     return row;
   } catch (const Json::exception&) {
     throw Error(file + ": is no row of a comparison: " + broken_json);
-  } catch (const std::invalid_argument& error) {  // of a name or a number
+  } catch (const std::invalid_argument& error) {  // from a name or a number
     throw Error(file + ": is no row of a comparison: " + error.what());
   }
 }

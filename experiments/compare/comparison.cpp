@@ -26,7 +26,7 @@ bool is_exact(const LoadedCase& loaded) {
              .within(exact_tolerance * loaded.facts.velocity_scale);
 }
 
-/// Impulses on their way from a child or a file: their bytes alone, as they are judged anew.
+/// Impulses as bytes, for a child's answer or a file. No check sum: the reader judges them again.
 std::string bytes_of(const Impulses& impulses) {
   return {reinterpret_cast<const char*>(impulses.data()),
           sizeof(double) * static_cast<size_t>(impulses.size())};
@@ -41,7 +41,7 @@ Impulses impulses_of(const std::string& bytes) {
 
 namespace fs = std::filesystem;
 
-/// One comparison under way.
+/// One comparison while it runs.
 class Comparison {
  public:
   Comparison(const std::vector<CompareCase>& cases, const CompareOptions& options,
@@ -51,7 +51,7 @@ class Comparison {
   std::vector<CompareRow> execute() {
     Manifest manifest("compare", {options_.command}, binary_);
     manifest.summary("complete", "no: under way");
-    manifest.write(options_.folder / "manifest.json");  // by which the folder is known
+    manifest.write(options_.folder / "manifest.json");  // identifies the folder
     create_folder(options_.folder / "rows");
     count_ = cases_.size() * options_.tolerances.size() * options_.starts.size() *
              options_.solvers.size() * static_cast<size_t>(options_.repeats);
@@ -81,8 +81,8 @@ class Comparison {
       else
         loaded = tried.load();
     } catch (const std::exception& error) {
-      // One row for the case, whatever was to be tried on it. It has no file: the case may be
-      // mended.
+      // The case has one row, whatever was to be tried on it. The row has no file, as the case may
+      // be mended.
       starts.clear();
       unreadable_.insert(tried.name);
       row.verdict = Verdict::unreadable;
@@ -127,8 +127,8 @@ class Comparison {
                        '|' + name_of(row.start) + '|' + numbers);
   }
 
-  /// A tighter tolerance is not tried where a looser one took all the time: its row is the looser
-  /// one's, and says so.
+  /// A tighter tolerance is not tried where a looser one took all the time. Its row is a copy of
+  /// the looser one's, with a note.
   static CompareRow late_row(CompareRow looser, const CompareRow& row) {
     looser.note = not_tried + printed("out of time to %g already", looser.tolerance);
     looser.key = row.key;
@@ -136,7 +136,7 @@ class Comparison {
     return looser;
   }
 
-  /// The row that is there already, or one that is made now and kept; unsolved ones are not
+  /// Adds the stored row, or else solves the case and stores the row. Unsolved attempts are not
   /// repeated.
   void attempt(const LoadedCase& loaded, const ComparedSolver& solver, CompareRow row) {
     const std::string who = row.case_name + '|' + row.solver + '|' + name_of(row.start);
@@ -151,7 +151,7 @@ class Comparison {
         row = late_row(looser->second, row);
       else
         solve_case(solver, loaded, options_.limits, row);
-      // an interrupt reaches the child as well: what it left is no result
+      // an interrupt reaches the child as well, so its answer is no result
       goes_on_ = !InterruptGuard::requested();
       if (!goes_on_) return;
       write_whole_file(file, to_json(row));
@@ -161,7 +161,7 @@ class Comparison {
     add(std::move(row), was_there);
   }
 
-  /// False: there is no file, or a damaged one, or another row's.
+  /// Returns false where the file is missing, damaged or of another row.
   static bool take_stored(const fs::path& file, CompareRow& row) {
     try {
       CompareRow stored = compare_row_of_json(read_whole_file(file), file.string(), row);
@@ -274,7 +274,7 @@ std::vector<ComparedSolver> parse_solvers(const std::string& list) {
     return solvers;
   }
   for (const std::string& name : split(list, ',')) {
-    make_solver(name);  // says what is wrong with a name
+    make_solver(name);  // throws for a wrong name
     const SolverEntry& entry = find_solver(name);
     if (std::none_of(solvers.begin(), solvers.end(),
                      [&](const ComparedSolver& s) { return s.name == name; }))

@@ -1,6 +1,6 @@
 #pragma once
-// The comparison: cases x backends x tolerances x starts x repeats -> rows in a folder, resumable
-// after any kind of death.
+// The comparison: cases x backends x tolerances x starts x repeats -> rows in a folder. It resumes
+// after an interrupt, a crash or a kill.
 
 #include <filesystem>
 #include <functional>
@@ -11,22 +11,22 @@
 
 namespace ballast {
 
-/// The best answer to a case that was found.
+/// The best answer found for a case.
 struct Reference {
   Impulses impulses;
   double error = 0.0;     ///< the judge's natural map, rms, over the case's velocity scale
   bool is_exact = false;  ///< it is a solution at 1e-9
-  std::string solver;     ///< "start": no backend had a better one than the warm start, or zeros
+  std::string solver;     ///< "start": no backend had a better answer than the warm start or zeros
 };
 
-/// Looks for a solution by newton_burst, then by `auto`, each in a child process from the warm
-/// start, within `max_seconds` of wall clock together, about.
+/// Looks for a solution with newton_burst, then with `auto`, each in a child process from the warm
+/// start. Together they take about `max_seconds` of wall clock.
 Reference find_reference(const LoadedCase& loaded, double max_seconds);
 
-/// Sees to it that a solution of the case is known to measure distances from: LoadedCase::exact.
-/// One that is there is judged; otherwise find_reference() looks for it (`max_seconds` = 0: nobody
-/// does). What is found is kept in `folder` and judged anew where it is there already. Throws Error
-/// where the folder cannot be written.
+/// Fills LoadedCase::exact with a solution, from which distances are measured, or empties it. A
+/// solution that is there is judged; otherwise find_reference() looks for one, unless `max_seconds`
+/// is 0. A solution that is found is kept in `folder`, and judged again when it is read from there.
+/// Throws Error where the folder cannot be written.
 void find_exact(LoadedCase& loaded, double max_seconds, const std::filesystem::path& folder);
 
 struct CompareOptions {
@@ -37,43 +37,43 @@ struct CompareOptions {
   int repeats = 1;  ///< interleaved: every attempt once, then every attempt again; unsolved ones
                     ///< are not repeated
   double max_seconds = 60.0;  ///< of one solve, prepare included
-  /// Spent on a solution of each case to measure distances from; 0: none is looked for.
+  /// Time to find a solution of each case, from which distances are measured; 0: no search.
   double exact_seconds = 0.0;
   SolveLimits limits;
   std::filesystem::path folder;  ///< rows/<key>.json, results.csv, manifest.json
-  std::string command;           ///< for the manifest: how it was called
+  std::string command;           ///< the command line, for the manifest
 };
 
-/// Called after each attempt, old rows included; `done` of `count`. Returning false stops the
-/// comparison: what is there stays.
+/// Called after each attempt, stored rows included: `done` of `count`. Returning false stops the
+/// comparison; the rows so far stay.
 using CompareProgress =
     std::function<bool(const CompareRow& row, bool was_there, size_t done, size_t count)>;
 
-/// Tries everything that has no row yet, and returns the rows in order: repeat, case, tolerance,
-/// start, solver. Where a solver ran out of time to a looser tolerance it is not tried: the row is
-/// a copy of that one, with a note. results.csv and manifest.json are written at the end and when
-/// stopped. A case that cannot be loaded is one row (Verdict::unreadable, with the reason for its
+/// Tries every combination without a row, and returns the rows in order: repeat, case, tolerance,
+/// start, solver. Where a solver ran out of time to a looser tolerance, a tighter one is not tried:
+/// its row is a copy with a note. results.csv and manifest.json are written at the end and when
+/// stopped. A case that cannot be loaded is one row (Verdict::unreadable, with the reason as its
 /// note), which is tried again the next time; so is a row whose file is damaged.
 std::vector<CompareRow> run_comparison(const std::vector<CompareCase>& cases,
                                        const CompareOptions& options,
                                        const CompareProgress& progress);
 
-/// Key of the program that is running: its file's content.
+/// Returns the key of the running program, made from the content of its file.
 std::string binary_key();
 
-/// The BLAS and LAPACK libraries mapped into this process, by their file names:
+/// Returns the BLAS and LAPACK libraries mapped into this process, by their file names:
 /// "libopenblasp-r0.3.21.so"; "none" without.
 std::string loaded_blas();
 
-// The lists on the command lines of `ballast compare` and `ballast bench` -> settings. Everything
-// wrong is a std::invalid_argument that says what was expected.
+// The lists on the command lines of `ballast compare` and `ballast bench` -> settings. A wrong list
+// throws std::invalid_argument, which says what was expected.
 
-/// "pgs,nncg", "none", or "all": every backend that was built. Throws UnknownSolver, MissingSolver
-/// for names.
+/// "pgs,nncg", "none", or "all": every backend that was built. Throws UnknownSolver or
+/// MissingSolver for a name.
 std::vector<ComparedSolver> parse_solvers(const std::string& list);
 
-/// Programs that solve (experiments/external). Throws std::invalid_argument: also for the name of a
-/// backend.
+/// Solvers that are external programs (experiments/external). Throws std::invalid_argument, also
+/// for the name of one of Ballast's backends.
 std::vector<ComparedSolver> external_solvers(const std::vector<std::string>& words,
                                              const ExternalLimits& limits);
 

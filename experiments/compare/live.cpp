@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr const char* out_of_time = "time limit";
 constexpr SealedKind trajectory_kind{"BALTRAJ3", "trajectory", 1};
 
-/// What a solver made of the start; who it was and to what tolerance is in the file's name.
+/// Packs or unpacks the motion; the solver and its tolerance are in the file's name.
 template <class Carrier, class Of>
 void carry_trajectory(Carrier& carrier, Of& trajectory) {
   carrier.text(trajectory.ended);
@@ -37,14 +37,14 @@ void carry_trajectory(Carrier& carrier, Of& trajectory) {
   carrier.list(trajectory.positions, [&](auto& centres) { carrier.list(centres); });
 }
 
-/// As bytes, for a file or on the way from a child.
+/// A trajectory as bytes, for a file or as a child's answer.
 std::string packed(const Trajectory& trajectory) {
   Packer packer;
   carry_trajectory(packer, trajectory);
   return packer.bytes();
 }
 
-/// Back into a trajectory whose solver and limits are known. Throws Error that begins with
+/// Unpacks bytes into a trajectory whose solver and limits are known. Throws Error that begins with
 /// `origin`.
 void unpack(const std::string& bytes, const std::string& origin, Trajectory& trajectory) {
   Unpacker unpacker(bytes, origin);
@@ -53,13 +53,13 @@ void unpack(const std::string& bytes, const std::string& origin, Trajectory& tra
   unpacker.require(trajectory.positions.size() == trajectory.frame_times.size());
 }
 
-/// Where every backend begins.
+/// The start of every backend.
 struct Start : PreparedRun {
   std::string key;  ///< of its checkpoint's content
 };
 
-/// The scene run by its own solver to the common start, in a folder of its own: an ordinary run,
-/// resumed if it is there.
+/// Runs the scene with its own solver to the common start, in a folder of its own. It is an
+/// ordinary run, which is resumed if it is there.
 Start make_start(const LiveOptions& options, const Scene& scene) {
   RunOptions run_options;
   run_options.scene = options.scene;
@@ -94,7 +94,7 @@ void append_frame(const MotionState& state, int grains, Trajectory& trajectory) 
   trajectory.positions.push_back(std::move(positions));
 }
 
-/// What the child does: steps until the end, or the time is over. A backend that throws ends the
+/// Runs in the child: steps until the end or the time limit. A backend that throws ends the
 /// trajectory there, with its own words.
 void step_on(const LiveOptions& options, Scene scene, Start start, const ComparedSolver& solver,
              Trajectory& trajectory) {
@@ -146,7 +146,7 @@ void step_in_child(const LiveOptions& options, const Scene& scene, const Start& 
     trajectory.ended = child.end == ChildEnd::out_of_time ? out_of_time : "failed";
 }
 
-/// From its file, or made now and kept there.
+/// Reads the trajectory from its file, or makes it and stores it there.
 Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const Start& start,
                          const std::string& binary, const ComparedSolver& solver,
                          Trajectory trajectory) {
@@ -167,7 +167,7 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
     }
   }
   step_in_child(options, scene, start, solver, trajectory);
-  // an interrupt reaches the child as well: what it left is no result
+  // an interrupt reaches the child as well, so its answer is no result
   if (!InterruptGuard::requested()) write_sealed_file(file, trajectory_kind, packed(trajectory));
   return trajectory;
 }
@@ -226,7 +226,7 @@ LiveComparison run_live(const LiveOptions& options,
   comparison.scene = resolve_run(options.scene, options.overrides).scene;
   comparison.velocity_scale = velocity_scale(comparison.scene);
   const Start start = make_start(options, comparison.scene);
-  const InterruptGuard guard;  // only now: run() has one of its own
+  const InterruptGuard guard;  // after make_start(): run() has one of its own
   comparison.has_driven_wall = start.system.first_driven_wall() >= 0;
   create_folder(options.folder / "trajectories");
   const std::string binary = binary_key();

@@ -17,7 +17,7 @@ namespace ballast {
 namespace {
 
 using Values = std::vector<double>;
-/// Of a column of the record; NaN without steps.
+/// The statistics of a column of the record; NaN without steps.
 Statistics over_steps(const Trajectory& t, double StepRecord::*value) {
   return statistics(record_column(t.steps, value));
 }
@@ -26,7 +26,7 @@ double last_of(const Trajectory& t, double StepRecord::*value) {
   return t.steps.empty() ? not_known : t.steps.back().*value;
 }
 
-/// The last one that is known: not every step has it.
+/// The last known solid fraction: not every step has one.
 double last_solid_fraction(const Trajectory& t) {
   double last = not_known;
   for (const StepRecord& step : t.steps)
@@ -36,7 +36,7 @@ double last_solid_fraction(const Trajectory& t) {
 
 /// The share of the steps whose error is above the tolerance.
 double missed_share(const Trajectory& t, const LiveComparison& c) {
-  if (t.iterations > 0) return not_known;  // it has none
+  if (t.iterations > 0) return not_known;  // it has no tolerance
   const double bound = t.tolerance * c.velocity_scale, count = static_cast<double>(t.steps.size());
   const auto is_missed = [&](const StepRecord& s) { return !(s.error_rms <= bound); };
   return static_cast<double>(std::count_if(t.steps.begin(), t.steps.end(), is_missed)) / count;
@@ -86,7 +86,7 @@ constexpr LiveNumber shown_numbers[] = {
      [](T t, C) { return 1e3 * over_steps(t, &StepRecord::seconds_solve).mean; }},
     {"distance_end", "distance", "µm", 1e6, 3, last_distance}};
 
-/// Those of some trajectory, in their order.
+/// The backends of all trajectories, in the order of the trajectories.
 std::vector<std::string> backends_of(const LiveComparison& comparison) {
   std::vector<std::string> backends;
   for (const Trajectory& t : comparison.trajectories)
@@ -94,11 +94,11 @@ std::vector<std::string> backends_of(const LiveComparison& comparison) {
   return backends;
 }
 
-/// A backend's colour; the tightest tolerance is a whole line, looser ones and numbers of
-/// iterations have shorter dashes.
+/// A line in the backend's colour. It is solid for the tightest tolerance; looser ones and numbers
+/// of iterations have shorter dashes.
 Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& trajectory) {
   const std::vector<std::string> backends = backends_of(comparison);
-  // tolerances from the tightest on, then iterations from the most on
+  // orders tolerances from the tightest on, then iterations from the most on
   const auto limit_of = [](const Trajectory& t) {
     return t.iterations > 0 ? std::pair(1, -1.0 * t.iterations) : std::pair(0, t.tolerance);
   };
@@ -113,7 +113,7 @@ Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& traje
   return curve;
 }
 
-/// The line of a trajectory, beside that of the reference, or of itself where there is none.
+/// Fills in the line of a trajectory. `reference` is the trajectory itself where there is none.
 using LiveLine =
     std::function<void(const Trajectory& t, const Trajectory& reference, Values& x, Values& y)>;
 
@@ -134,7 +134,7 @@ void line_of_cost(const Trajectory& t, const Trajectory&, Values& x, Values& y) 
   }
 }
 
-/// How far the wall is from where it is in the reference solution: the trajectories themselves
+/// The distance of the wall from its place in the reference [µm], as the trajectories themselves
 /// coincide to the eye.
 void line_of_deviation(const Trajectory& t, const Trajectory& reference, Values& x, Values& y) {
   for (size_t k = 0; k < std::min(t.steps.size(), reference.steps.size()); ++k) {
@@ -170,7 +170,7 @@ page::Table numbers_table(const LiveComparison& comparison) {
   return table;
 }
 
-/// Error over cost, a line for each backend; no panel where nothing is known.
+/// Error over cost, with a line for each backend; no panel without known values.
 std::vector<Panel> accuracy_panels(const LiveComparison& comparison) {
   Panel panel{.x_label = page::marked("cost of a simulated second  (s)"),
               .y_label = "error, relative, mean over steps",
@@ -225,7 +225,7 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
   using R = StepRecord;
   const Trajectory* reference = comparison.reference_trajectory();
   std::vector<page::Picture> pictures;
-  // one figure with a line for every trajectory; of differences from the reference it has none
+  // adds a figure with a line for every trajectory; in a difference the reference has none
   const auto add = [&](const char* name, const char* title, const char* y_label, bool log_y,
                        const LiveLine& line, bool is_difference = false) {
     Panel panel{
@@ -240,7 +240,7 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
       panel.curves.push_back(std::move(curve));
     }
     Figure figure{.name = name, .title = title};
-    // the key grows, the axes stay
+    // the legend grows with the curves, the axes keep their size
     figure.height = 440 + 22 * static_cast<int>(2 * panel.curves.size() / 3);
     if (!panel.curves.empty()) figure.panels = {std::move(panel)};
     pictures.push_back({figure, {page::words(std::string(name) + ".caption")}});

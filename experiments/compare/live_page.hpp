@@ -1,5 +1,5 @@
 #pragma once
-// What a closed-loop comparison shows: numbers and figures of its trajectories, a page, CSV files.
+// Output of a closed-loop comparison: numbers and figures of its trajectories, a page, CSV files.
 
 #include <filesystem>
 #include <span>
@@ -11,15 +11,15 @@
 
 namespace ballast {
 
-/// What a trajectory came to in one number: a column of live.csv, and one of the page's table where
-/// it has a head.
+/// One number that sums up a trajectory: a column of live.csv, and one of the page's table where it
+/// has a head.
 struct LiveNumber {
-  const char* name;  ///< of live.csv, in SI units, or ms as it says
-  const char* head;  ///< of the page's column, in the notation of page::marked; null: none
+  const char* name;  ///< in live.csv, in SI units, or in ms where it says so
+  const char* head;  ///< of the page's column, in the notation of page::marked; null: no column
   const char* unit;  ///< on the page
-  double factor;     ///< from that of live.csv to the page's
+  double factor;     ///< from the unit in live.csv to that on the page
   int digits;        ///< on the page
-  /// NaN: not known, or not there (no steps, driven wall, grains or reference).
+  /// Returns NaN where it is not known or does not exist (no steps, wall, grains or reference).
   double (*of)(const Trajectory& trajectory, const LiveComparison& comparison);
 };
 std::span<const LiveNumber> live_numbers();
@@ -27,13 +27,13 @@ std::span<const LiveNumber> live_numbers();
 /// One row for each trajectory.
 std::string live_csv(const LiveComparison& comparison);
 
-/// A line for every trajectory; last, error against cost with a line for every backend. Figures of
-/// the wall only with a driven wall, distances only with a reference. A figure of which nothing is
-/// known has no panels.
+/// Figures with a line for every trajectory; the last one is error against cost, with a line for
+/// every backend. Figures of the wall need a driven wall, distances need a reference. A figure
+/// without known values has no panels.
 std::vector<page::Picture> live_figures(const LiveComparison& comparison);
 
-/// Reads manifest.json of `folder`; writes live.csv, trajectories as
-/// steps-<label>.csv, figures/*.svg and live.html there. Throws Error.
+/// Reads manifest.json of `folder`; writes live.csv, trajectories as steps-<label>.csv,
+/// figures/*.svg and live.html there. Throws Error.
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison);
 
 /// The k-th backend's line: eight colours, then the same dashed, then thin.

@@ -15,10 +15,10 @@
 namespace ballast {
 namespace {
 
-/// What the process that solves says: its share of the row, and what the judge needs.
+/// The report of the process that solves: its part of the row, and the input of the judge.
 struct Account {
   CompareRow row;
-  Solved solved;  ///< reason and impulses; row.reason is the name of the first, or empty
+  Solved solved;  ///< reason and impulses; row.reason is the reason's name, or empty
 };
 
 SolverRun drive(Solver& solver, const LoadedCase& loaded, const SolveLimits& limits,
@@ -30,13 +30,13 @@ SolverRun drive(Solver& solver, const LoadedCase& loaded, const SolveLimits& lim
   std::optional<FclibStop> fclib;
   if (row.measure == Measure::fclib) {
     budget.fclib = &fclib.emplace(loaded.problem, row.tolerance);
-    budget.tolerance = 0.0;  // the natural map has no say
+    budget.tolerance = 0.0;  // the natural map stops no solve
   }
   const Impulses from = row.start == StartKind::warm ? loaded.warm_start : Impulses();
   return SolverRunner().run(solver, loaded.problem, from, budget);
 }
 
-/// A new solver for each run: nothing is carried over but caches.
+/// Makes a new solver for each run, so that nothing but caches carries over.
 void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
                       Account& account) {
   CompareRow& row = account.row;
@@ -47,7 +47,7 @@ void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const So
     const double making = watch.seconds();
     SolverRun run = drive(*solver, loaded, limits, row);
     const double seconds = run.prepare_seconds + run.solve_seconds;
-    // What is loaded and started once is seen in the first run alone.
+    // Only the first run has the costs of loading and starting once.
     if (row.runs == 0) row.startup_seconds = making + run.startup_seconds;
     const bool is_fastest = row.runs == 0 || seconds < row.seconds();
     ++row.runs;
@@ -67,12 +67,12 @@ void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const So
            spent + row.seconds() < limits.warm_seconds);
 }
 
-/// The whole of what the child does.
+/// The child's whole work. The parent does it for an external program.
 Account solve_here(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
                    const CompareRow& row) {
   Account account{row, {}};
   account.row.verdict = Verdict::unsolved;
-  // Of an earlier run nothing counts.
+  // A failure drops the results of earlier runs.
   const auto fail = [&](Verdict verdict, const char* note) {
     account = {row, {}};
     account.row.verdict = verdict;
@@ -92,13 +92,13 @@ Account solve_here(const MakeSolver& make, const LoadedCase& loaded, const Solve
   return account;
 }
 
-/// A row without an answer has no error, not a small one.
+/// Sets the errors of a row without an answer to NaN, so that it has none instead of a small one.
 void clear_measures(CompareRow& row) {
   row.error = std::nan("");
   row.judged = {.natural_map_rms = row.error, .natural_map_max = row.error, .fclib = row.error};
 }
 
-/// The judge's measures of an answer, and what they and the backend's word come to.
+/// Fills in the judge's measures of an answer, and the verdict from them and the backend's reason.
 void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
   clear_measures(row);
   const Impulses& impulses = account.solved.impulses;
@@ -118,7 +118,7 @@ void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
       verdict_of(reason, error, by_fclib ? row.tolerance : row.tolerance * scale, by_fclib);
   const std::string words = explained(loaded.problem, run, row.tolerance * scale);
   row.verdict = run.verdict;
-  // What the natural map misses is no reason where another measure was asked for.
+  // The words on a denial are about the natural map, so they are no note for another measure.
   if (row.verdict == Verdict::no_solution || (row.verdict == Verdict::denied && !by_fclib))
     row.note = words;
   const bool is_late = row.seconds() > row.max_seconds;
@@ -132,7 +132,7 @@ void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
 void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const SolveLimits& limits,
                 CompareRow& row) {
   if (!solver.external_key.empty()) {
-    static_cast<void>(solver.make());  // no folder for its files: no row says so, all ends
+    static_cast<void>(solver.make());  // throws where its files have no folder, which ends all
     const Stopwatch watch;
     Account account = solve_here(solver.make, loaded, limits, row);
     row = std::move(account.row);
@@ -140,8 +140,8 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
     if (row.verdict == Verdict::timeout) row.solve_seconds = watch.seconds();
     return judge(loaded, account, row);
   }
-  // Backends look at the clock between iterations, prepare() never does: some grace before the
-  // child is killed.
+  // Backends look at the clock between iterations, but prepare() never does, so the child has some
+  // time more before it is killed.
   const double most_seconds = 1.25 * row.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
   const ChildResult child = run_in_child(most_seconds, [&] {
     const auto bytes = static_cast<rlim_t>(limits.memory_MB * 1048576.0);

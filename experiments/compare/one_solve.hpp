@@ -1,7 +1,7 @@
 #pragma once
-// One attempt, in a process of its own, under limits of time and memory: what crashes, hangs or
-// eats memory becomes a row. It goes to a tolerance in either measure, timed outside the judge,
-// with its history.
+// One attempt in a process of its own, under limits of time and memory: a solver that crashes,
+// hangs or takes too much memory becomes a row. It solves to a tolerance in either measure, is
+// timed outside the judge, and keeps its history.
 
 #include <functional>
 #include <memory>
@@ -18,27 +18,27 @@ using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 
 struct SolveLimits {
   int max_iterations = 1 << 30;
-  double memory_MB = 4096.0;  ///< of address space, the program's own included; 0: none
+  double memory_MB = 4096.0;  ///< limit of address space, the program's own included; 0: none
   double warm_seconds =
-      0.25;  ///< a solve that is shorter is repeated in the child for about so long, and the
-             ///< fastest run counts: what is faster than a page fault is otherwise not measured
+      0.25;  ///< a shorter solve is repeated in the child for about this time, and the fastest run
+             ///< counts: a solve faster than a page fault is otherwise not measured
   int most_runs = 20;  ///< in one child
 };
 
-/// A backend of a comparison: of solver_list(), a test's own, or a program.
+/// A backend of a comparison: one of solver_list(), a test's own, or an external program.
 struct ComparedSolver {
   std::string name;
   ContactLaw law = ContactLaw::coulomb;
   MakeSolver make;
-  /// Key of a program that is no part of this one; not empty: no child is forked for it, as the
-  /// program is under limits of its own (experiments/external).
+  /// The key of an external program; empty for the others. No child is forked for an external
+  /// program, as it has limits of its own (experiments/external).
   std::string external_key = {};
 };
 
-/// Solves the case in a forked child, judges what comes back here, and fills in what came of it in
-/// `row`; what was tried (its measure, tolerance, start and max_seconds) must be in it. A backend
-/// stops on the measure that is asked for: it looks at it wherever it evaluates its error
-/// (Budget::fclib). Throws InvalidProblem.
+/// Solves the case in a forked child, judges the answer in this process, and fills in the outcome
+/// in `row`, which must hold the attempt (measure, tolerance, start and max_seconds). A backend
+/// stops on the row's measure, which it checks wherever it evaluates its error (Budget::fclib).
+/// Throws InvalidProblem.
 void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const SolveLimits& limits,
                 CompareRow& row);
 

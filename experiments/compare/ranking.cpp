@@ -12,9 +12,9 @@ namespace ballast {
 namespace {
 
 using Eigen::VectorXd;
-using Weights = std::map<std::string, double>;  ///< of runs
+using Weights = std::map<std::string, double>;  ///< by run
 
-/// Weighted means of the backends. Some member has a weight.
+/// The weighted mean of each backend over `members`, of which some run has a weight > 0.
 VectorXd means_of(const TriedCases& tried, const std::vector<Eigen::Index>& members,
                   const Weights& weights) {
   VectorXd sum = VectorXd::Zero(tried.log_seconds.cols());
@@ -27,7 +27,7 @@ VectorXd means_of(const TriedCases& tried, const std::vector<Eigen::Index>& memb
   return sum / total;
 }
 
-/// 1 + how many are less, and half of the others that are equal.
+/// The rank of each mean: 1 + the number of smaller means + half the number of other equal ones.
 VectorXd ranked(const VectorXd& means) {
   VectorXd ranks(means.size());
   for (Eigen::Index i = 0; i < means.size(); ++i)
@@ -36,7 +36,7 @@ VectorXd ranked(const VectorXd& means) {
   return ranks;
 }
 
-/// The first value, and the range of the others.
+/// The first value, and the 95 % interval of the others if they were drawn.
 Estimate estimate_of(const std::vector<double>& values, bool is_drawn) {
   if (!is_drawn) return {values[0], not_known, not_known};
   const std::span drawn = std::span(values).subspan(1);

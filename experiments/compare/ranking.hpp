@@ -1,5 +1,5 @@
 #pragma once
-// The order of backends by time over many problems, and how sure it is over other problems of the
+// The order of backends by time over many problems, and how certain it is for other problems of the
 // same kind (bootstrap).
 
 #include <filesystem>
@@ -18,39 +18,39 @@ struct TriedCases {
   StartKind start = StartKind::cold;
   double tolerance = 0.0;
   std::vector<std::string> solvers;      ///< sorted
-  std::vector<const CompareRow*> cases;  ///< a row of each, sorted by name
-  /// Cases x solvers: log(time + shift), the time [s] of the median repeat; the limit where it is
-  /// not solved.
+  std::vector<const CompareRow*> cases;  ///< one row of each case, sorted by name
+  /// Cases x solvers: log(time + shift), where time is the median over repeats [s], or the limit
+  /// where the case is not solved.
   Eigen::MatrixXd log_seconds;
 };
 
-/// One for each start and tolerance, loosest tolerance first. The rows must outlive it; unreadable
-/// ones count for nothing.
+/// Returns one entry for each start and tolerance, loosest tolerance first. The rows must outlive
+/// it; unreadable rows are ignored.
 std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows, double shift = summary_shift);
 
 /// The family without a captured case's phase: "shaken, active" -> "shaken".
 std::string world_of(const CompareRow& row);
 
-/// What cases of one run have in common: "shaken/25-1-step_0000050" -> "shaken/25-1-". They are
-/// alike, so the bootstrap draws runs, not cases.
+/// The part of its name that a case shares with all cases of its run: "shaken/25-1-step_0000050" ->
+/// "shaken/25-1-". Cases of one run are alike, so the bootstrap draws runs, not cases.
 std::string run_of(const std::string& case_name);
 
-/// A number, and 95 % of the bootstrap's: NaN with fewer than `fewest_runs` runs.
+/// A number and its 95 % interval by bootstrap, NaN with fewer than `fewest_runs` runs.
 struct Estimate {
   double value, low, high;
 };
 inline constexpr int fewest_runs = 5, resamples = 200;
 
-/// The rank of each backend by its mean over `members`, rows of log_seconds: 1 for the fastest;
-/// equal ones share their mean rank. No members: NaN. The draws are seeded: the same on every
-/// machine.
+/// Returns the rank of each backend by its mean over `members`, rows of log_seconds: 1 for the
+/// fastest; equal means share their mean rank. Without members all is NaN. The draws are seeded:
+/// the same on every machine.
 std::vector<Estimate> ranks_of(const TriedCases& tried, const std::vector<Eigen::Index>& members);
 
-/// The public table of a collection's comparison (ranking_page.cpp), into `folder`, whose
-/// manifest.json says who made the rows:
+/// Writes the public table of a collection's comparison (ranking_page.cpp) into `folder`, whose
+/// manifest.json says which program and machine made the rows:
 ///   index.html   the order of the backends, the held part apart; each family; how far the order
 ///                holds; what each backend fails on; the families
-///   ranking.md   the same
+///   ranking.md   the same page
 ///   table.csv    a line for each part (open, held), family or size, tolerance, start and backend
 /// Throws Error.
 void write_ranking(const std::filesystem::path& folder, std::span<const CompareRow> rows);

@@ -37,7 +37,7 @@ page::Text solved(const BackendSummary& s) {
   return page::quantity(100.0 * s.solved / (s.solved + s.unsolved), "%");
 }
 
-/// What became of the cases that are not solved, most often first.
+/// The outcomes of the unsolved cases, most frequent first.
 std::string verdicts_of(const BackendSummary& s) {
   const int named = s.timeouts + s.crashes + s.unsupported + s.no_solutions + s.denied;
   std::pair<int, const char*> counts[] = {
@@ -51,7 +51,7 @@ std::string verdicts_of(const BackendSummary& s) {
   return text;
 }
 
-/// Rows of log_seconds.
+/// The open cases, as rows of log_seconds.
 std::vector<Eigen::Index> open_cases(const TriedCases& tried) {
   std::vector<Eigen::Index> open;
   for (size_t c = 0; c < tried.cases.size(); ++c)
@@ -71,7 +71,7 @@ class Ranking {
     for (const CompareRow& row : rows) {
       if (row.verdict == Verdict::unreadable) continue;
       rows_.push_back(row);
-      rows_.back().history.clear();  // rows are copied by kind
+      rows_.back().history.clear();  // rows are copied for each kind
       families.insert(world_of(row));
       sizes[row.facts.contacts] = size_of(row);
     }
@@ -105,7 +105,7 @@ class Ranking {
     return page;
   }
 
-  /// A line for each part, kind, setting and backend.
+  /// Returns a line for each part, kind, setting and backend.
   std::string csv() const {
     CsvWriter csv;
     csv.add_row(std::vector<std::string>{"part", "kind", "tolerance", "start", "solver", "law",
@@ -139,7 +139,7 @@ class Ranking {
         summaries_[{held, kind, table.tolerance, table.start, s.solver}] = s;
   }
 
-  /// Of nothing where it tried none.
+  /// Returns no cases and NaN where the backend tried no such case.
   BackendSummary summary(bool held, const std::string& kind, const TriedCases& tried,
                          size_t s) const {
     const auto found =
@@ -150,7 +150,7 @@ class Ranking {
     return none;
   }
 
-  /// All tables of one start and tolerance, with the backends in their order.
+  /// Adds all tables of one start and tolerance, with the backends in the order of their ranks.
   void add_tables(const TriedCases& tried, page::Section& order, page::Section& each,
                   page::Section& failures) const {
     const std::vector<Estimate> ranks = ranks_of(tried, open_cases(tried));
@@ -196,7 +196,7 @@ class Ranking {
     failures.add(failed);
   }
 
-  /// The three kinds of which a backend leaves the largest share unsolved.
+  /// Names the three kinds of which a backend leaves the largest shares unsolved.
   std::string worst(const TriedCases& tried, size_t s) const {
     std::vector<std::pair<double, std::string>> places;
     for (const std::string& kind : kinds_)
@@ -244,7 +244,7 @@ class Ranking {
   std::vector<CompareRow> rows_;
   std::vector<std::string> kinds_;  ///< families, then sizes
   std::vector<TriedCases> tried_;
-  /// By held or not, kind, tolerance, start and backend.
+  /// Indexed by held or not, kind, tolerance, start and backend.
   std::map<std::tuple<bool, std::string, double, StartKind, std::string>, BackendSummary>
       summaries_;
 };

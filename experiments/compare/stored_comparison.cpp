@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What makes two rows the same solve.
+/// Rows of equal identity are the same solve.
 using SolveIdentity = std::tuple<std::string, std::string, double, StartKind, Measure>;
 SolveIdentity identity_of(const CompareRow& row) {
   return {row.facts.content, row.solver, row.tolerance, row.start, row.measure};
@@ -43,13 +43,13 @@ StoredComparison read_comparison(const fs::path& folder) {
     throw Error(folder.string() + ": no folder of a comparison: it has no rows");
   const Manifest manifest = Manifest::read(folder / "manifest.json");
   StoredComparison stored{folder, manifest.machine(), manifest.commit(), manifest.started(), {}};
-  // Files of other rows lie there, too: of older builds, and of other limits.
+  // rows/ also holds files of older builds and of other limits, so results.csv selects the rows.
   CsvReader table(folder / "results.csv");
   const std::vector<std::string> columns = compare_columns();
   while (table.next()) {
     table.require_cells(columns.size());
     const std::string& key = table.cells().back();
-    if (key.empty() || key == columns.back()) continue;  // a case that could not be read; the head
+    if (key.empty() || key == columns.back()) continue;  // an unreadable case; the head
     const fs::path file = folder / "rows" / (key + ".json");
     stored.rows.push_back(compare_row_of_json(read_whole_file(file), file.string()));
   }
@@ -67,7 +67,7 @@ MergedComparison merged(std::vector<StoredComparison> comparisons) {
   for (const StoredComparison& c : comparisons)
     if (std::ranges::find(all.machines, c.machine) == all.machines.end())
       all.machines.push_back(c.machine);
-  std::map<std::string, std::string> names;  // of problems by what they hold, each another
+  std::map<std::string, std::string> names;  // of problems by content, all different
   std::set<std::string> taken;
   for (size_t m = 0; m < all.machines.size(); ++m) {
     const std::string mark = all.machines.size() > 1 ? machine_name(m) : "";
@@ -136,7 +136,7 @@ std::vector<ChangedSolve> compare_diff(std::span<const CompareRow> before,
     for (const size_t side : {0, 1}) {
       if (sides[side].empty()) continue;
       const RepeatedSolve repeats = over_repeats(sides[side]);
-      // the median tells solved from unsolved: no time is 0
+      // 0 stands for unsolved, so no time of a solved case is 0
       (side == 0 ? solve.before : solve.after) =
           repeats.solved ? std::max(repeats.median, 1e-9) : 0.0;
       if (repeats.fastest > 0.0)

@@ -61,7 +61,7 @@ void append(std::vector<float>& values, const Vector& vector) {
   for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(vector[k]));
 }
 
-/// Polygons or single points by their vertices, of which `offsets` says where each one ends.
+/// Polygons or single points by their vertices; `offsets` has the end of each one.
 struct VtpCells {
   std::vector<float> points;
   std::vector<std::int32_t> connectivity, offsets;
@@ -99,7 +99,7 @@ void write_grains_vtp(const MechanicalSystem& system, const MotionState& state,
   VtpCells cells;
   std::vector<float> mass, speed, velocity;
   std::vector<std::int32_t> grain;
-  // cell data stand once for each face: all faces of a grain carry the grain's
+  // cell data are per face: all faces of a grain carry the values of the grain
   for (int b = 0; b < system.grain_count; ++b) {
     for (const ConvexPart& part : convex_parts(system.bodies[b].shape)) {
       const Polyhedron& shape = *part.polyhedron;

@@ -20,10 +20,10 @@ namespace ballast {
 void export_state(const MechanicalSystem& system, const MotionState& state,
                   const std::filesystem::path& file);
 
-/// What makes .vtp files of states, series_file(file, step), one series: the .pvd that names them
-/// with their times and, where `contacts` gives those of each state by its number, a second series
-/// whose names end in "_contacts": a point for each contact with force and normal_force on body b
-/// (world frame [N]).
+/// Makes the .vtp files of states, series_file(file, step), one series: writes the .pvd that names
+/// them with their times and, where `contacts` gives the contacts of each state by its number, a
+/// second series whose names end in "_contacts": a point for each contact with force and
+/// normal_force on body b (world frame [N]).
 void write_series(std::span<const MotionState> states,
                   const std::function<std::vector<FrameContact>(size_t)>& contacts,
                   const std::filesystem::path& file);

@@ -40,7 +40,7 @@ double read_number(const Hdf5Reader& file, const std::string& name, bool may_be_
   return value;
 }
 
-/// `otherwise` where it is not there or not finite.
+/// Returns `otherwise` where the number is not there or not finite.
 double optional_number(const Hdf5Reader& file, const std::string& name, double otherwise) {
   const double value = file.has(name) ? file.read<double>(name, 1)[0] : otherwise;
   return std::isfinite(value) ? value : otherwise;
@@ -77,7 +77,7 @@ std::vector<HistoryPoint> read_history(const Hdf5Reader& file) {
   return history;
 }
 
-/// A name that goes with this object, with all that stands under it.
+/// A path that is removed with this object, with everything under it.
 class PassingPath {
  public:
   explicit PassingPath(fs::path path) : path_(std::move(path)) {}
@@ -93,7 +93,7 @@ class PassingPath {
   const fs::path path_;
 };
 
-/// A folder of our own. TMPDIR decides where: in memory files cost no wait for a disk.
+/// Makes a folder of our own, in TMPDIR if that is set: in memory, files cost no wait for a disk.
 fs::path make_work_folder() {
   const char* wanted = std::getenv("TMPDIR");
   const fs::path folder = fs::absolute(wanted && *wanted ? wanted : "/tmp");
@@ -102,7 +102,7 @@ fs::path make_work_folder() {
   return name;
 }
 
-/// One program, the requests to which are numbered.
+/// One program; the requests to it are numbered.
 class ExternalProgram {
  public:
   ExternalProgram(ExternalCommand command, const ExternalLimits& limits)
@@ -116,7 +116,8 @@ class ExternalProgram {
     request.id = count_;
     if (command_.is_served) see_to_served();
     write_request(problem, request);
-    // Backends look at the clock between iterations: some grace before it is killed.
+    // Backends look at the clock between iterations, so the program has some grace before it is
+    // killed.
     const double seconds = 1.25 * request.max_seconds + 2.0;
     if (command_.is_served)
       tell(problem, answer, seconds);
@@ -139,7 +140,7 @@ class ExternalProgram {
   }
   SupervisedLimits limits_of_program() const { return {limits_.memory_MB, command_.folder}; }
 
-  /// One process for one problem.
+  /// Starts one process for one problem.
   void start(const fs::path& problem, const fs::path& answer, double seconds) const {
     SupervisedProgram program(command_.command, {problem, answer}, limits_of_program());
     program.close_input();
@@ -147,7 +148,7 @@ class ExternalProgram {
     if (program.status() != 0) lost(program);
   }
 
-  /// The process that is kept, ready.
+  /// Starts the process that is kept, unless it runs, and waits until it is ready.
   void see_to_served() {
     if (served_) return;
     served_ = std::make_unique<SupervisedProgram>(
@@ -158,15 +159,14 @@ class ExternalProgram {
     throw Error(command_.name + ": " + said);
   }
 
-  /// One line for it.
+  /// Tells it one problem and waits for its reply.
   void tell(const fs::path& problem, const fs::path& answer, double seconds) {
     served_->write_line(problem.string() + '\t' + answer.string());
     const std::string reply = await("done", seconds);
     if (reply != "done") throw Error(command_.name + ": " + reply);
   }
 
-  /// The next line that is this word or begins with "failed"; others are the program's own
-  /// business.
+  /// Returns the next line that is this word or begins with "failed"; ignores other lines.
   std::string await(const std::string& word, double seconds) {
     const Stopwatch watch;
     for (std::string line;;) {
@@ -176,7 +176,7 @@ class ExternalProgram {
         if (line == word || line.starts_with("failed")) return line;
         if (left > 0.0) continue;
       }
-      // The next request finds a new one.
+      // The next request starts a new process.
       const std::unique_ptr<SupervisedProgram> gone = std::move(served_);
       if (heard != SupervisedProgram::Heard::end || !gone->wait(1.0)) late(seconds);
       lost(*gone);
@@ -187,7 +187,7 @@ class ExternalProgram {
     try {
       return read_answer(file, request);
     } catch (const Error& error) {
-      // The folder goes, its name says nothing.
+      // The message leaves out the folder, which is removed.
       std::string words = error.what();
       if (words.starts_with(file.string()))
         words = file.filename().string() + words.substr(file.string().size());
@@ -228,7 +228,7 @@ class ExternalSolver final : public Solver {
     solved.iterations = answer.iterations;
     solved.own_residual = answer.own_residual;
     if (budget.keep_history) solved.history = std::move(answer.history);
-    // Its own clock is believed as far as ours allows it.
+    // The program's own time is used only where it does not exceed ours.
     const double all = watch.seconds();
     if (answer.seconds >= 0.0 && answer.seconds <= all)
       solved.startup_seconds = all - answer.seconds;
@@ -240,7 +240,7 @@ class ExternalSolver final : public Solver {
   const std::string name_;
 };
 
-// Which programs solve: the words of the command line, and lists in TOML.
+// The programs that solve: words of the command line, and lists in TOML.
 
 /// Commands of a list start in the folder of the list.
 std::vector<ExternalCommand> read_list(const fs::path& file) {
@@ -329,7 +329,7 @@ ExternalAnswer read_answer(const std::filesystem::path& path, const ExternalRequ
   answer.status = static_cast<int>(status);
   if (!answer.is_solution()) return answer;
   answer.impulses = read_impulses(file, answered + "r", request.problem);
-  // What need not be there.
+  // The other entries are optional.
   const double iterations = optional_number(file, answered + "iterations", 0.0);
   if (iterations < 0.0) file.fail(answered + "iterations is negative");
   answer.iterations = static_cast<int>(std::min<double>(iterations, request.max_iterations));
@@ -341,7 +341,7 @@ ExternalAnswer read_answer(const std::filesystem::path& path, const ExternalRequ
 
 std::function<std::unique_ptr<Solver>()> external_solver(const ExternalCommand& command,
                                                          const ExternalLimits& limits) {
-  // One that is not asked makes no folder.
+  // A program that is not asked makes no folder.
   const auto shared = std::make_shared<std::shared_ptr<ExternalProgram>>();
   return [shared, command, limits]() -> std::unique_ptr<Solver> {
     if (!*shared) *shared = std::make_shared<ExternalProgram>(command, limits);

@@ -19,7 +19,7 @@ std::vector<double> finite_of(std::span<const double> values) {
   return finite;
 }
 
-/// The samples where both are finite.
+/// The samples whose x and y are both finite.
 struct Samples {
   ArrayXd x, y;
   int count() const { return static_cast<int>(x.size()); }
@@ -42,9 +42,9 @@ double determination(double residual_squares, const ArrayXd& y) {
   return total > 0.0 ? 1.0 - residual_squares / total : not_known;
 }
 
-/// y = amplitude shape for a shape that has no parameter left: the best amplitude, or the one that
-/// is given, and the squared residuals about it. What a shape with one more parameter is fitted by:
-/// the least residual over that parameter.
+/// Fit of y = amplitude shape for a fixed shape: the best amplitude, or the given one, and the sum
+/// of squared residuals. A shape with one parameter is fitted by the least residual over that
+/// parameter.
 struct Projection {
   double amplitude, residual;
 };
@@ -71,7 +71,7 @@ double quantile(std::span<const double> values, double p) {
   std::vector<double> sorted = finite_of(values);
   if (sorted.empty()) return not_known;
   std::sort(sorted.begin(), sorted.end());
-  // By rank: p = 0 is the least, p = 1 the largest, and linear between two that follow each other.
+  // Interpolates in the rank: p = 0 is the least sample, p = 1 the largest.
   const double at = p * static_cast<double>(sorted.size() - 1);
   const size_t below = static_cast<size_t>(at), above = std::min(below + 1, sorted.size() - 1);
   return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
@@ -88,7 +88,7 @@ std::vector<double> low_pass(std::span<const double> y, int width) {
   const int count = static_cast<int>(y.size());
   for (int k = 0; k < count; ++k) {
     if (!std::isfinite(y[k])) continue;
-    // weights that fall on no sample are missing from both sums: the mean stays a mean
+    // weights without a sample are missing from both sums, so that the mean stays a mean
     double sum = 0.0, weights = 0.0;
     for (int j = std::max(0, k - half); j <= std::min(count - 1, k + half); ++j) {
       if (!std::isfinite(y[j])) continue;
@@ -105,7 +105,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
   LineFit fit;
   fit.samples = samples.count();
   if (fit.samples < 2) return fit;
-  // about the means: sums of large x would lose digits
+  // about the means, as sums of large x would lose digits
   const double mean_x = samples.x.mean(), mean_y = samples.y.mean();
   const ArrayXd dx = samples.x - mean_x, dy = samples.y - mean_y;
   const double xx = dx.square().sum();
@@ -122,16 +122,16 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
 ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y) {
   const Samples samples = finite_samples(x, y);
   if (samples.count() < 2) return {};
-  // x counts from its least in units of its range, so that rates are pure numbers and nothing
+  // x is counted from its minimum in units of its range, so that rates are pure numbers and nothing
   // overflows
   const double origin = samples.x.minCoeff(), range = samples.x.maxCoeff() - origin;
   if (!(range > 0.0)) return {};
   const ArrayXd place = (samples.x - origin) / range;
   const auto at = [&](double rate) { return project((rate * place).exp(), samples.y); };
-  // The amplitude follows from the rate, which alone is searched: factors e^-20 ... e^20 across the
-  // range of x, then ever finer about the best one.
+  // Only the rate is searched, as the amplitude follows from it: first factors e^-20 ... e^20
+  // across the range of x, then ever finer about the best one.
   double rate = 0.0, least = at(rate).residual;
-  int half = 80;  // steps to both sides
+  int half = 80;  // steps to each side
   for (double step = 0.25; step > 1e-10; step *= 0.25) {
     const double middle = rate;
     for (int k = -half; k <= half; ++k)
@@ -153,7 +153,7 @@ double student_p(double t, double degrees_of_freedom) {
 
 double student_t95(int degrees_of_freedom) {
   if (degrees_of_freedom < 1) return std::numeric_limits<double>::infinity();
-  // p falls with t: bisection, from the normal distribution's bound up
+  // p falls with t: bisection upwards from the bound of the normal distribution
   double low = 1.9, high = 13.0;
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
@@ -175,8 +175,8 @@ std::vector<double> holm(std::span<const double> p) {
   for (size_t k = 0; k < p.size(); ++k)
     if (std::isfinite(p[k])) order.push_back(k);
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return p[a] < p[b]; });
-  // the smallest counts as often as there are questions, the next once less, and none may become
-  // smaller than one before it
+  // The smallest p is multiplied by the number of tests, the next by one less, and so on; none may
+  // become smaller than the one before it.
   std::vector<double> corrected(p.size(), not_known);
   double least = 0.0;
   for (size_t k = 0; k < order.size(); ++k) {
@@ -272,7 +272,7 @@ VarianceRatio misfit_of(const Points& points) {
   }
   if (counted < 3 || !std::isfinite(misses) || !(variances > 0.0)) return {};
   const double reduced = misses / (counted - 2) / (variances / counted);
-  // the errors come from few samples: a ratio of two variances, not chi^2 of known errors
+  // the errors come from few samples: the ratio is one of two variances, not chi^2 of known errors
   return {reduced, f_p(reduced, counted - 2, points.errors_from)};
 }
 
@@ -309,8 +309,8 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
   fit.critical = critical(static_cast<int>(best - residual.begin()));
   fit.gain = project(peaked_shape(x, fit.critical), y, gain).amplitude;
   fit.r2 = determination(*best, y);
-  // where the squared residuals exceed the least by what t at 95 % allows: S(nu_c) <= S_least (1 +
-  // t^2 / (n - parameters))
+  // The interval of nu_c: where the sum of squared residuals S(nu_c) <= S_least (1 + t^2 / (n -
+  // parameters)), with t at 95 %.
   const int freedom = static_cast<int>(x.size()) - (std::isfinite(gain) ? 1 : 2);
   const double t = student_t95(freedom), bound = *best * (1.0 + t * t / freedom) + 1e-300;
   fit.low = fit.high = fit.critical;
@@ -324,7 +324,7 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
 
 WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
                          const Eigen::VectorXd& error) {
-  // every row in units of its error: then ordinary least squares, by the normal equations
+  // Rows in units of their errors make it ordinary least squares, solved by the normal equations.
   const Eigen::VectorXd weight = error.cwiseInverse();
   const Eigen::MatrixXd scaled = weight.asDiagonal() * design;
   const Eigen::VectorXd target = weight.cwiseProduct(y);

@@ -1,7 +1,7 @@
 #pragma once
-// Fits of measured curves, and what a referee asks of them: an interval, whether the law holds,
-// whether a difference is more than the scatter of the samples. Everything skips what is not
-// finite, and answers NaN where there are too few samples or there is no degree of freedom.
+// Fits of measured curves, and statistics to judge them: confidence intervals, whether a law holds,
+// whether a difference is more than the scatter of the samples. All functions skip values that are
+// not finite, and return NaN where there are too few samples or there is no degree of freedom.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -20,14 +20,13 @@ struct Statistics {
 };
 Statistics statistics(std::span<const double> values);
 
-/// The value that the share `p` (0 <= p <= 1) of the samples does not exceed, linear between the
-/// two nearest: 0.5 is the median, the mean of the middle two of an even number. NaN without
-/// samples.
+/// The quantile `p` (0 <= p <= 1) of the samples, linear between the two nearest: 0.5 is the
+/// median, which is the mean of the middle two of an even number of samples. NaN without samples.
 double quantile(std::span<const double> values, double p);
 
-/// Centred low-pass without phase shift: Hann-weighted mean over `width` samples to both sides
-/// together (an odd number is made of it), weights cut and renormalised at the ends and where
-/// samples are not finite. NaN stays NaN. width <= 1: a copy.
+/// Centred low-pass without phase shift: the Hann-weighted mean over a window of `width` samples
+/// (an even width becomes odd). Weights are cut and renormalised at the ends and where samples are
+/// not finite. NaN stays NaN. width <= 1: a copy.
 std::vector<double> low_pass(std::span<const double> y, int width);
 
 /// y = offset + slope x, ordinary least squares in y.
@@ -41,7 +40,8 @@ struct LineFit {
 LineFit fit_line(std::span<const double> x, std::span<const double> y);
 
 /// y = amplitude exp(rate x), least squares in y itself (not in log y, which would weight the small
-/// values and cannot take zeros). R^2 is in y as well, so it compares with a LineFit's.
+/// values and cannot take zeros). R^2 is in y as well, so it can be compared with that of a
+/// LineFit.
 struct ExponentialFit {
   double amplitude = not_known, rate = not_known;
   double r2 = not_known;
@@ -53,11 +53,11 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
 double student_p(double t, double degrees_of_freedom);
 /// Two-sided 95 % quantile of Student's t. Infinite without a degree of freedom.
 double student_t95(int degrees_of_freedom);
-/// Probability that a ratio of variances is at least this large by chance: F with these degrees of
-/// freedom above and below. With `below` unbounded it is that of chi^2/above.
+/// Probability that a ratio of variances is at least this large by chance: F distribution with
+/// these degrees of freedom above and below. For unbounded `below` it is that of chi^2/above.
 double f_p(double ratio, double above, double below);
-/// Holm's correction: each p as it must be read when all were asked together. Bounds the
-/// probability that any of them is small by chance. In the order given.
+/// Holm's correction of the p of tests that are asked together, in the order given. It bounds the
+/// probability that any of them is small by chance.
 std::vector<double> holm(std::span<const double> p);
 
 /// Mean over independent samples (seeds) with its standard error s/sqrt(n); NaN error for one
@@ -65,37 +65,37 @@ std::vector<double> holm(std::span<const double> p);
 struct SampleMean {
   double mean = not_known, error = not_known;
   int samples = 0;
-  /// Of the 95 % confidence interval.
+  /// The half width of the 95 % confidence interval.
   double half_width() const { return student_t95(samples - 1) * error; }
-  /// Of a mean so far from zero where there is no difference.
+  /// The probability of a mean at least so far from zero where the true mean is zero.
   double p() const { return student_p(mean / error, samples - 1); }
   /// Standard deviation of one sample.
   double deviation() const { return error * std::sqrt(static_cast<double>(samples)); }
 };
 SampleMean sample_mean(std::span<const double> values);
 
-/// Standard deviation of one sample, from several groups of samples that scatter alike about means
-/// of their own: known better than from any one of them.
+/// Standard deviation of one sample, pooled over several groups of samples that scatter alike about
+/// their own means. It is more accurate than that of a single group.
 struct PooledError {
   double deviation = not_known;
-  int degrees_of_freedom = 0;  ///< samples less groups
+  int degrees_of_freedom = 0;  ///< samples minus groups
 };
 PooledError pooled_error(std::span<const std::vector<double>> groups);
 
-/// A ratio of two variances, and the probability of so large a one by chance.
+/// A ratio of two variances, and the probability of so large a ratio by chance.
 struct VarianceRatio {
   double ratio = not_known, p = not_known;
 };
-/// Of samples that were measured in every group (value s of each group is sample s): do the groups
-/// differ by more than the samples scatter when each one's own mean is taken out? F and its p; NaN
-/// where a group lacks a sample.
+/// Tests whether groups differ by more than their samples scatter, each sample's own mean being
+/// taken out. Every sample is measured in every group (value s of each group is sample s). Returns
+/// F and its p; NaN where a group lacks a sample.
 VarianceRatio difference_of(std::span<const std::vector<double>> groups);
 
 /// Measured points: means over samples.
 struct Points {
   std::vector<double> x, y;
   std::vector<double> error;  ///< standard errors of y
-  int errors_from = 0;        ///< degrees of freedom of all errors together: samples less points
+  int errors_from = 0;        ///< degrees of freedom of all errors together: samples minus points
 
   void add(double at, const SampleMean& mean);
 };
@@ -112,17 +112,17 @@ struct PowerFit {
 /// Points that are not finite and positive are left out.
 PowerFit fit_power(std::span<const double> x, std::span<const double> y);
 
-/// How far the power law of the points that have errors misses them: chi^2 over its degrees of
-/// freedom, and the p of so large a misfit where the law holds. Squared residuals of the logarithms
-/// in units of the points' squared relative standard errors. About 1: the law holds within the
-/// scatter. Much more: the points leave it by more than their errors, and the interval of the
+/// The misfit of the power law to the points that have errors: chi^2 over its degrees of freedom,
+/// and the p of so large a misfit where the law holds. chi^2 sums squared residuals of the
+/// logarithms in units of the squared relative standard errors. About 1: the law holds within the
+/// scatter. Much more: the points deviate by more than their errors, and the interval of the
 /// exponent says how well a line can be drawn, not how well it holds. The errors are pooled over
 /// the points, because an error from three samples is itself known to a factor of two. NaN with
 /// fewer than three points that have errors.
 VarianceRatio misfit_of(const Points& points);
 
-/// y = C x, C the geometric mean of y/x; its 95 % interval is a factor because the points span
-/// decades.
+/// y = C x, where C is the geometric mean of y/x. Its 95 % interval is a factor because the points
+/// span decades.
 struct Proportion {
   double factor = not_known;
   double low = not_known, high = not_known;  ///< 95 % interval of the mean
@@ -140,8 +140,8 @@ struct PeakedRate {
   double r2 = not_known;
   double at(double frequency) const;
 };
-/// Least squares in the rate itself; nu_c is sought within the frequencies given. `gain`: D where
-/// it is known, so that nu_c alone is fitted as in the paper. Needs three points.
+/// Least squares in the rate itself; nu_c is sought within the frequencies given. `gain`: a known
+/// D; then only nu_c is fitted, as in the paper. Needs three points.
 PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const double> rate,
                            double gain = not_known);
 
@@ -149,8 +149,8 @@ PeakedRate fit_peaked_rate(std::span<const double> frequency, std::span<const do
 struct WeightedFit {
   Eigen::VectorXd value;
   Eigen::MatrixXd covariance;  ///< of the values, from the points' errors
-  double chi2 = not_known;     ///< squared misses in units of the squared errors
-  int degrees_of_freedom = 0;  ///< points less values
+  double chi2 = not_known;     ///< squared residuals in units of the squared errors
+  int degrees_of_freedom = 0;  ///< points minus values
 
   double reduced() const { return chi2 / degrees_of_freedom; }
   /// A linear combination of the values, with its standard error.
@@ -161,8 +161,8 @@ struct WeightedFit {
 WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
                          const Eigen::VectorXd& error);
 
-/// F and its p: does `more`, which has further values, fit better than `less` by more than chance?
-/// The scale of the errors is taken from `more`'s own misses.
+/// F and its p, for the test whether `more`, which has further values, fits better than `less` by
+/// more than chance. The scale of the errors is taken from the residuals of `more`.
 VarianceRatio improvement(const WeightedFit& less, const WeightedFit& more);
 
 }  // namespace ballast

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One line for each column that is not finite somewhere.
+/// Adds one notice for each column that is not finite in some step.
 void note_gaps(const std::vector<StepRecord>& steps, std::vector<std::string>& notices) {
   for (const StepColumn& column : step_columns()) {
     std::vector<size_t> rows;
@@ -38,7 +38,7 @@ void check_times(const fs::path& folder, const std::vector<StepRecord>& steps) {
                   std::to_string(k + 1));
 }
 
-/// What the scene knows: loads in weights of the grains, the wall's mass in theirs.
+/// Facts from the scene. For a box, loads are in weights of the grains, the wall's mass in theirs.
 void add_settings(const Scene& scene, RunFacts& facts) {
   facts.solver = scene.solver.name;
   facts.iterations_most = scene.solver.max_iterations;
@@ -57,7 +57,7 @@ void add_settings(const Scene& scene, RunFacts& facts) {
       facts.frequency = wall.load.frequency;
       facts.f_max = wall.load.f_max;
       facts.f_min = wall.load.f_min;
-      break;  // a step records the first one's motion
+      break;  // a step records the motion of the first driven wall
     }
   for (const BodySpec& body : scene.bodies)
     if (body.shape)
@@ -80,14 +80,14 @@ void add_settings(const Scene& scene, RunFacts& facts) {
   facts.lid_pressure = scene.deposit.lid_pressure_weight;
 }
 
-/// NaN when it isn't there or no number.
+/// NaN where the summary has no such number.
 double summary_number(const RunData& data, const std::string& name) {
   const nlohmann::ordered_json::json_pointer place("/summary/" + name);
   const bool is_there = data.manifest().contains(place) && data.manifest()[place].is_number();
   return is_there ? data.manifest()[place].get<double>() : not_known;
 }
 
-/// From the scene, and from the manifest's summary what the run found of its packing.
+/// Facts from the scene, and those of the packing from the manifest's summary.
 RunFacts facts_of(const RunData& data) {
   RunFacts facts;
   if (data.scene) add_settings(*data.scene, facts);

@@ -1,5 +1,5 @@
 #pragma once
-// What a run's folder says about itself, read for the report: rows, manifest, scene.
+// The contents of a run's folder, read for the report: rows, manifest, scene.
 
 #include <filesystem>
 #include <memory>
@@ -18,23 +18,23 @@ namespace ballast {
 struct RunData {
   std::filesystem::path folder;
   std::vector<StepRecord> steps;
-  std::shared_ptr<const nlohmann::ordered_json> stored_manifest;  ///< an object, or nothing
+  std::shared_ptr<const nlohmann::ordered_json> stored_manifest;  ///< an object, or null
   std::string manifest_text, scene_text;                          ///< as in the files
-  std::optional<Scene> scene;  ///< of a run; none where it can't be used any more
+  std::optional<Scene> scene;  ///< none where it can't be used any more
   RunFacts facts;
-  std::vector<std::string> notices;  ///< what was not finite or not usable: one line each, for the
-                                     ///< reader of the report
+  std::vector<std::string> notices;  ///< for the reader of the report, one line on each thing
+                                     ///< that is not finite or not usable
 
-  /// An object; empty when there is none.
+  /// The manifest; an empty object when there is none.
   const nlohmann::ordered_json& manifest() const;
 };
 
-/// The object in a file's text. Throws Error naming the file.
+/// Parses the JSON object in the text of a file. Throws Error naming the file.
 nlohmann::ordered_json json_object(const std::string& text, const std::filesystem::path& file);
 
-/// record.h5, or the logs of a run still going. Throws Error naming the file when there is no
-/// record, no row, no time, or one of the three cannot be read. A scene that is wrong becomes
-/// a notice.
+/// Reads a run: its rows from record.h5 or, while it goes on, from its logs. Throws Error naming
+/// the file when there is no record, no row, no time, or when rows, manifest or scene.toml cannot
+/// be read. A scene that is wrong becomes a notice.
 RunData read_run_data(const std::filesystem::path& folder);
 
 }  // namespace ballast

@@ -27,7 +27,7 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
   summary.error_max_relative = summary.error_rms.max / scale;
   if (summary.facts.tolerance > 0.0)
     summary.missed = std::ranges::count_if(steps, [](const auto& s) { return !(s.solved > 0.0); });
-  // the deepest overlap and when it was, and the mean of all points
+  // the deepest overlap with its time, and the mean over all active points
   double points = 0.0, overlap = 0.0;
   for (const StepRecord& step : steps) {
     if (step.penetration_max > summary.penetration_max || std::isnan(summary.penetration_max)) {
@@ -43,7 +43,7 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
 
 /// A missing term makes the balance NaN: it is not silently left out.
 EnergyBalance energy_balance(std::span<const StepRecord> steps) {
-  // of the first step its own residual, as no row has the kinetic energy before it
+  // The first step gives its own residual, as no row has the kinetic energy before it.
   double residual = steps.front().energy_residual +
                     (steps.back().kinetic_energy - steps.front().kinetic_energy),
          works = 0.0, kinetic = 0.0, gained = 0.0;
@@ -79,12 +79,12 @@ Statistics over_periods(const std::vector<WallPeriod>& periods, double WallPerio
 }
 
 /// Eq. 4 over the whole periods within a window: (rho(t_b) - rho(t_a)) / (reference (t_b - t_a))
-/// [1/s]; NaN where there is none.
+/// [1/s]; NaN where there is no whole period.
 double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
                        double reference, const TimeWindow& window) {
-  // from the first begin of a period in the window to the last end of one
+  // t_a is the first beginning of a period in the window, t_b the last end of one
   const double slack = 0.25 * step, end = std::min(window.end, steps.back().time);
-  // Periods begin at multiples of 1 / nu: the first one not before a, the last one not after b.
+  // Periods begin at multiples of 1 / nu: a is the first in the window, b the last.
   const double a = std::ceil((window.begin - slack) * frequency) / frequency,
                b = std::floor((end + slack) * frequency) / frequency;
   if (!(b > a + slack)) return not_known;
@@ -103,8 +103,8 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
     return step.time >= paper_window.begin - 0.25 * facts.step;
   });
   if (begin != steps.end()) compaction.reference = begin->solid_fraction;
-  // rho at the end of a period minus rho at its begin: both at the same phase of the load, so that
-  // the swing within the period drops out; not known when the begin is not in the record
+  // rho at the end of a period minus rho at its beginning: both are at the same phase of the load,
+  // so that the swing within the period drops out; not known when the record lacks the beginning
   for (const WallPeriod& period : periods)
     compaction.gains.push_back(period.first == 0 ? not_known
                                                  : steps[period.last - 1].solid_fraction -
@@ -167,11 +167,11 @@ std::string steps_words(const RunSummary& run) {
       return text + " " + run.facts.solver + " solves another law (" + name_of(entry.law) +
              ") than the one that it is judged by.";
   text += " More accurate and slower: --set solver.";
-  // iterations are left where the clock has stopped them
+  // the clock has stopped the solver where iterations are left
   const bool is_by_clock =
       run.facts.seconds_most < 1e30 && run.iterations.max < run.facts.iterations_most;
   text += is_by_clock ? printed("max_seconds=%.3g", 5.0 * run.facts.seconds_most)
-                      : printed("max_iterations=%.0f",  // of which a scene takes 1e9
+                      : printed("max_iterations=%.0f",  // a scene accepts 1e9
                                 std::min(1e9, 5.0 * std::max(1.0, run.facts.iterations_most)));
   if (run.facts.solver != "auto") text += ", or --set solver.name=auto";
   return text + ".";
@@ -298,13 +298,13 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts) {
   if (steps.empty()) return summary;
   summarise_cost(steps, summary);
   summary.duration = steps.back().time;
-  // what every run has: effort, errors, overlaps, energy
+  // numbers of every run: effort, errors, overlaps, energy
   summary.iterations = statistics(record_column(steps, &StepRecord::iterations));
   summary.contacts = statistics(record_column(steps, &StepRecord::contacts));
   summary.active_contacts = statistics(record_column(steps, &StepRecord::active_contacts));
   summarise_accuracy(steps, summary);
   summary.energy = energy_balance(steps);
-  // what a driven wall and a packing have besides
+  // further numbers, of a driven wall and of a packing
   if (summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
     summarise_wall(steps, summary);
   if (summary.facts.has_packing)

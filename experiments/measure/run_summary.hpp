@@ -1,11 +1,11 @@
 #pragma once
-// A run in numbers, computed once: what its page, the rows of a campaign (paper_data.hpp) and the
-// figures of the paper state. Pure functions of the record, each defined once. NaN: not known.
-// The table in docs/manual/paper.md defines them.
+// The numbers of a run that its page, the rows of a campaign (paper_data.hpp) and the figures of
+// the paper state. They are pure functions of the record, each computed in one place. NaN: not
+// known. The table in docs/manual/paper.md defines them.
 //
-// Quantities of a period are means over the periods that count; which these are, wall_cycles says.
-// Delta rho_1 is a mean of differences, not the slope of a line through the periods' means: it
-// needs one period where a line needs two, and both its ends are at one phase of the load.
+// Quantities of a period are means over the periods that count (defined in wall_cycles.hpp). Delta
+// rho_1 is a mean of differences, not the slope of a line through the periods' means: it needs one
+// period where a line needs two, and both ends of it are at the same phase of the load.
 
 #include <array>
 #include <span>
@@ -18,20 +18,20 @@
 
 namespace ballast {
 
-// Do the grains roll? Their displacements over whole periods of the load (stroboscopic: the same
-// phase, so that what goes to and fro drops out), and how these go around a loop in the xz plane
+// Roll of the grains: their displacements over whole periods of the load (stroboscopic: at the same
+// phase, so that to-and-fro motion drops out), and the sense of these around a loop in the xz plane
 // (paper, Fig. 6).
 //
-// A mean vorticity cannot tell a roll from shear: both have a circulation. A roll goes round: along
-// all four sides of a rectangle the displacement has the same sense.
+// A mean vorticity cannot tell a roll from shear, as both have a circulation. In a roll the
+// displacement has the same sense along all four sides of a rectangle.
 
-/// What one grain has done.
+/// The displacement of one grain.
 struct Displacement {
-  Vec3 place;  ///< of its centre, at the middle of its way [m]
+  Vec3 place;  ///< mid-point of the way of its centre [m]
   Vec3 move;   ///< [m]
 };
 
-/// A rectangle in the xz plane; y is averaged over.
+/// A rectangle in the xz plane; values are averaged over y.
 struct XzRectangle {
   double x_lo, x_hi, z_lo, z_hi;  ///< [m]
 };
@@ -43,12 +43,12 @@ struct Roll {
   /// Mean displacement along top, right, bottom, left [m].
   std::array<double, 4> along{not_known, not_known, not_known, not_known};
   double circulation = not_known;  ///< its integral around the rectangle [m^2]
-  /// The weakest side over the strongest, in the sense of the circulation: 1 all sides alike,
-  /// negative where a side goes against it and the grains do not go round.
+  /// The weakest side over the strongest, in the sense of the circulation. 1: all sides are alike.
+  /// Negative: one side goes against it, and the grains do not go round.
   double roundness() const;
 };
-/// Grains within `reach` of a side count for it: about a grain's size [m]. A side without a grain
-/// makes all of it not known.
+/// Grains within `reach` [m] of a side, about a grain's size, count for it. Where one side has no
+/// grain the whole roll is not known.
 Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& rectangle,
              double reach);
 
@@ -57,13 +57,13 @@ Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& rec
 std::vector<Displacement> cell_means(std::span<const Displacement> displacements,
                                      const XzRectangle& rectangle, int columns, int rows);
 
-/// What the record's rows don't say (read_run_data finds it). The numbers that need what is NaN
-/// stay NaN.
+/// Facts that the record's rows do not contain (read_run_data finds them). Numbers that need an
+/// unknown fact (NaN) are NaN.
 struct RunFacts {
   double step = not_known;            ///< h [s]
   double velocity_scale = not_known;  ///< of errors [m/s]: g h, or 1 m/s without gravity
-  /// What the scene asks of the error of every step, over velocity_scale; not known where there is
-  /// no scene or it asks for nothing.
+  /// The tolerance of the scene for the error of every step, over velocity_scale; not known without
+  /// a scene or a tolerance.
   double tolerance = not_known;
   double gravity = not_known;                            ///< [m/s^2]
   double frequency = not_known;                          ///< nu of the load [Hz]
@@ -71,26 +71,26 @@ struct RunFacts {
   double grain_mass = not_known, wall_mass = not_known;  ///< m (all grains), m_w [kg]
   double solid_fraction_initial = not_known;             ///< before the drive
   bool has_wall = false, has_packing = false;            ///< a driven wall; a solid fraction
-  // what was set besides, as the scene has it
-  std::uint64_t seed = 0;  ///< of the grains: the sample
+  // further settings of the scene
+  std::uint64_t seed = 0;  ///< of the grains; it makes the sample
   std::string solver;
-  double iterations_most = not_known;  ///< of the solver per step
-  double seconds_most = not_known;     ///< the same by the clock [s]
-  double slop = not_known;             ///< overlap that is left alone [m]
-  double grains = not_known;           ///< number
+  double iterations_most = not_known;  ///< limit of the solver per step
+  double seconds_most = not_known;     ///< the same limit by the clock [s]
+  double slop = not_known;             ///< overlap that is not corrected [m]
+  double grains = not_known;           ///< number of grains
   double length = not_known;           ///< L of the box [m]
   double height = not_known;           ///< H: top of the packing before the lid is raised [m]
   double lid_raise = not_known;        ///< [m]
   double largest_size = not_known;     ///< largest distance of a grain's centre to a vertex [m]
   double smallest_size = not_known;    ///< circumradius of the smallest body [m]
   double friction = not_known, deposit_friction = not_known;
-  double lid_pressure = not_known;  ///< grain weights while depositing; 0: placed
+  double lid_pressure = not_known;  ///< in grain weights while depositing; 0: the lid is placed
 };
 
-/// X, the right side of Eq. 3 without C, m the mass of all grains [m].
+/// X [m], the right side of Eq. 3 without C; m is the mass of all grains.
 double eq3_displacement(const RunFacts& facts);
 
-/// What is asked of a run (docs: measures of the project), and what the paper says.
+/// Targets for a run (docs: measures of the project), and values in the paper.
 namespace target {
 inline constexpr double penetration_max = 0.25e-3;  ///< [m]
 inline constexpr double penetration_mean = 5e-6;    ///< [m]
@@ -112,12 +112,12 @@ struct PhaseCost {
 /// Sums over the run [J].
 struct EnergyBalance {
   double residual = not_known;  ///< K_end - K_start - works + dissipation
-  double relative = not_known;  ///< |residual| over the sum of |works of a step together|
-  double gained = not_known;    ///< given by contacts, which no law of contact does
-  double moved = not_known;     ///< those works, and the largest kinetic energy
+  double relative = not_known;  ///< |residual| over the sum over steps of |a step's works|
+  double gained = not_known;    ///< given by contacts, which no contact law does
+  double moved = not_known;     ///< the sum of those works plus the largest kinetic energy
 };
 
-/// x falls at the start; least x within the first period, at least 0.3 s.
+/// The fall of x at the start, to its least value within the first period, but at least 0.3 s.
 struct FirstContraction {
   double size = not_known;    ///< [m]; 0 where x does not fall
   double time90 = not_known;  ///< when 90 % of it is reached [s]
@@ -127,11 +127,11 @@ struct FirstContraction {
 struct TimeWindow {
   double begin, end;
 };
-/// Compaction is measured in the paper's window, from its time lag to the end of the run, and
-/// within the same absolute time for all frequencies.
+/// Compaction is measured in the paper's window, from its time lag to the end of the run, and in
+/// the same window of absolute time for all frequencies.
 inline constexpr TimeWindow paper_window{0.2, 1e30};
 inline constexpr TimeWindow common_window{0.4, 1.0};
-/// The paper's window of a run of 1 s, and a later one of the same length for all frequencies.
+/// The paper's window of a run of 1 s, and a later window with one length for all frequencies.
 inline constexpr TimeWindow first_second{0.2, 1.0}, late_window{0.5, 1.5};
 
 /// The solid fraction rho and how it grows (paper, sec. 5, Eq. 4, Figs. 12 and 13).
@@ -139,7 +139,7 @@ struct Compaction {
   double initial = not_known;        ///< rho before the drive
   double reference = not_known;      ///< rho_0: at paper_window.begin
   double last = not_known;           ///< at the end of the run
-  std::vector<double> gains;         ///< of each period that counts
+  std::vector<double> gains;         ///< in each period that counts
   double gain = not_known;           ///< Delta rho_1: mean over them
   double relative_gain = not_known;  ///< Delta rho_1 / rho_0
   double rate = not_known;           ///< Eq. 4 over paper_window [1/s]
@@ -160,7 +160,7 @@ struct RunSummary {
   Statistics error_rms, error_max;                                         ///< [m/s]
   double error_mean_relative = not_known, error_max_relative = not_known;  ///< of error_rms over
                                                                            ///< velocity_scale
-  double error_counted = not_known;  ///< the mean one, over the steps after the transient alone
+  double error_counted = not_known;  ///< mean relative error of the steps after the transient
   long missed = 0;  ///< steps that the judge does not call solved, where a tolerance is asked for
 
   double penetration_max = not_known;       ///< [m] in the whole run
@@ -180,33 +180,33 @@ struct RunSummary {
 
   // with a packing
   Compaction compaction;
-  Roll roll;  ///< from stored poses (roll_of_periods): summarise, which has none, leaves it out
+  Roll roll;  ///< from stored poses (roll_of_periods); summarise has none and leaves it out
 };
 
-/// Of the grains over a summary's periods, where a frame is stored at both ends (to a step).
+/// The displacements of grains over a summary's periods with a frame at both ends (to a step).
 std::vector<Displacement> period_displacements(std::span<const MotionState> frames,
                                                const RunSummary& summary);
-/// Around the middle half of the box, of a summary's periods. Not known where the facts lack the
-/// box, or no frame stands at a period's ends.
+/// The roll around the middle half of the box over the periods of a summary. Not known where the
+/// facts lack the box, or no period has frames at its ends.
 Roll roll_of_periods(std::span<const MotionState> frames, const RunSummary& summary);
 
 RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts);
 
-// What a run's user must be told without asking: steps that missed their tolerance, overlaps that
-// can be seen, energy that no law of contact gives. And what to do about each.
+// Findings that a run's user must see unasked: steps that missed their tolerance, visible overlaps,
+// energy that no contact law gives; and the remedy for each.
 
-/// An overlap of this part of the smallest radius, and gained energy of this part of what moved,
-/// can be seen.
+/// An overlap above this fraction of the smallest radius, and gained energy above this fraction of
+/// the energy that moved, are visible.
 inline constexpr double visible_overlap = 0.01, visible_gain = 0.01;
 
-/// Errors are told in g h, or in m/s without gravity.
+/// The unit of printed errors: g h, or m/s without gravity.
 const char* error_unit(const RunSummary& run);
 
-/// Nothing has to be said.
+/// Returns whether there is no finding.
 bool is_clean(const RunSummary& run);
 
-/// One sentence on each thing, the finding first and what to do about it behind; a single one when
-/// there is nothing to do.
+/// One text for each finding: the finding, then its remedy. Without findings a single sentence says
+/// so.
 std::vector<std::string> trust_words(const RunSummary& run);
 
 }  // namespace ballast

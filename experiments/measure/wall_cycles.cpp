@@ -8,8 +8,8 @@
 namespace ballast {
 namespace {
 
-/// Largest rise above the running minimum, and where the wall comes back to. NaN samples are passed
-/// over.
+/// Finds the largest rise above the running minimum, and the position to which the wall returns.
+/// NaN samples are skipped.
 void find_stroke(std::span<const StepRecord> steps, WallPeriod& period) {
   // One period of x, outwards drawn upwards:
   //
@@ -23,11 +23,11 @@ void find_stroke(std::span<const StepRecord> steps, WallPeriod& period) {
   for (size_t k = period.first; k < period.last; ++k) {
     const double x = steps[k].wall_x;
     if (!std::isfinite(x)) continue;
-    if (!(running < x)) {  // of equal ones the last: there the stroke begins
+    if (!(running < x)) {  // the last of equal ones: there the stroke begins
       running = x;
       jammed = k;
     }
-    if (x - running <= period.rise) continue;  // false on the first: rise is NaN
+    if (x - running <= period.rise) continue;  // false at first: rise is NaN
     period.rise = x - running;
     period.peak = k;
     period.x_before = running;
@@ -47,7 +47,7 @@ WallPeriod make_period(std::span<const StepRecord> steps, double begin, double e
   period.last = first_after(steps, end, h);
   if (period.first == period.last) return period;
   find_stroke(steps, period);
-  // the sample before the period is its begin: the first one is already a step on
+  // the sample before the period is at its beginning; the first one is already a step later
   const size_t start = period.first > 0 ? period.first - 1 : period.first;
   period.net = steps[period.last - 1].wall_x - steps[start].wall_x;
   const auto within = steps.subspan(period.first, period.last - period.first);
@@ -58,15 +58,15 @@ WallPeriod make_period(std::span<const StepRecord> steps, double begin, double e
   return period;
 }
 
-/// Marks the longest stretch of |v| <= limit, `least` samples or more, that holds a load above the
-/// period's mean, from sample `first` on; false when there is none.
+/// Marks the longest stretch of |v| <= limit, `least` samples or more, from sample `first` on, that
+/// contains a load above the mean of the period. Returns false when there is none.
 bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, double limit,
                  size_t least, size_t first, WallCycles& cycles) {
-  // jammed is slow while the load is high; a turning point is slow while it is low
+  // a jammed wall is slow under a high load; a turning point is slow under a low one
   double mean = 0.0;
   for (size_t k = period.first; k < period.last; ++k)
     mean += steps[k].load / static_cast<double>(period.last - period.first);
-  // Every slow stretch that holds such a load is measured from end to end; the longest stays.
+  // Every slow stretch that contains such a load is measured from end to end; the longest is kept.
   const auto is_slow = [&](size_t k) { return std::abs(cycles.velocity[k]) <= limit; };
   size_t longest_begin = 0, longest_end = 0;
   for (size_t k = period.first; k < period.last; ++k) {
@@ -89,15 +89,15 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
                  WallCycles& cycles) {
   const double transient = transient_of(1.0 / duration_of_period);
   const size_t first = first_after(steps, transient, h);
-  // what is slow is slow beside the fastest motion after the transient
+  // slow is relative to the fastest motion after the transient
   std::vector<double> speed;
   for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
   cycles.v_peak = statistics(speed).max;
   const double limit = jammed_speed * cycles.v_peak;
-  // what is slow for less than 4 % of a period only turns
+  // a slow stretch of less than 4 % of a period is a turning point
   const size_t least = static_cast<size_t>(0.04 * duration_of_period / h);
-  bool has_moved = false;  // a wall that rests at the end of the transient has no phase yet, unless
-                           // it is jammed since
+  bool has_moved = false;  // a wall at rest since the end of the transient has no phase yet,
+                           // unless it is found to be jammed
   for (size_t k = first; k < steps.size(); ++k) {
     const double v = cycles.velocity[k];
     has_moved = has_moved || std::abs(v) > limit;
@@ -111,7 +111,7 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
   if (begin >= duration_of_period - 0.25 * h)
     mark_jammed(steps, make_period(steps, begin - duration_of_period, begin, h), limit, least,
                 first, cycles);
-  // a jam takes over what was called active or passive by the sign of a residual velocity
+  // a jam replaces the phase active or passive that the sign of a residual velocity gave
   for (const WallPeriod& period : cycles.periods)
     if (mark_jammed(steps, period, limit, least, first, cycles)) ++cycles.jammed_periods;
   for (WallPeriod& period : cycles.periods) {
@@ -138,7 +138,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   if (!(frequency > 0.0) || !(h > 0.0))
     throw std::invalid_argument("wall cycles need a positive frequency and step");
   const double duration_of_period = 1.0 / frequency;
-  // Per step the force is noise of the solver and of single impacts: both curves are smoothed.
+  // The force of a single step is noise of the solver and of impacts: both curves are smoothed.
   WallCycles cycles;
   // No wider than a twentieth of a period: the stroke itself must not be smoothed away.
   cycles.smoothing = std::min(smoothing, duration_of_period / 20.0);
@@ -198,11 +198,11 @@ ForceLaw force_law(std::span<const StepRecord> steps, const WallCycles& cycles, 
   struct Samples {
     std::vector<double> place, force, load;
   } active, passive;
-  // nearer to the jam than the smoothing is wide, f_g holds some of the jam's force
+  // nearer to the jam than the width of the smoothing, f_g contains some force of the jam
   const size_t width = cycles.smoothing_samples;
   for (const WallPeriod& period : cycles.periods)
     for (size_t k = period.first + width; k + width < period.last; ++k) {
-      // a stroke is counted from where it began: x_before on the way out, x_after on the way back
+      // xi is counted from x_before on the way out, from x_after on the way back
       const bool rises = k <= period.peak;
       const double from = rises ? period.x_before : period.x_after, stroke = period.x_peak - from,
                    xi = steps[k].wall_x - from;

@@ -33,7 +33,7 @@ const char* variable_of(Ink ink) {
   return names[static_cast<size_t>(ink)];
 }
 
-/// Rules that turn the colours of the figures into variables of the page.
+/// CSS rules that replace the colours of the figures by variables of the page.
 std::string palette_rules() {
   std::string rules;
   const auto add = [&](const std::string& rgb, const char* variable) {
@@ -46,7 +46,7 @@ std::string palette_rules() {
   for (int k = 0; k <= static_cast<int>(Ink::light); ++k) {
     const Ink ink = Ink(k);
     const long value = std::strtol(rgb_of(ink) + 1, nullptr, 16);
-    // as gnuplot writes colours of words, and all others
+    // gnuplot writes the colours of words in the first form and all others in the second
     for (const char* form : {"rgb(%ld,%ld,%ld)", "rgb(%3ld, %3ld, %3ld)"})
       add(printed(form, value >> 16, (value >> 8) & 255, value & 255), variable_of(ink));
   }
@@ -69,12 +69,12 @@ constexpr std::array replay_modules = {
     "vector.js", "colour.js", "data.js",  "camera.js", "shader.js", "mesh.js",  "stage.js",
     "shades.js", "marks.js",  "plots.js", "panel.js",  "errors.js", "input.js", "replay.js"};
 
-/// An element with modules whose names are their own.
+/// A script element with modules; other scripts do not see their names.
 std::string script_of(const std::string& modules) {
   return "<script>\n(async () => {\n\"use strict\";\n" + modules + "})();\n</script>\n";
 }
 
-/// Five digits are more than a chart shows; JSON has no NaN.
+/// The values with five digits, more than a chart shows; NaN becomes null, since JSON has no NaN.
 Json short_numbers(const std::vector<double>& values) {
   Json list = Json::array();
   for (const double value : values)
@@ -123,7 +123,7 @@ Json figure_json(const Figure& figure) {
   return {{"name", figure.name}, {"title", figure.title}, {"panels", panels}};
 }
 
-/// Bytes that the page's scripts unpack: unpacked() of answers/elements.js.
+/// An element with bytes that the page's scripts unpack by unpacked() of answers/elements.js.
 std::string packed(const std::string& id, const std::string& bytes) {
   return "<script type=\"text/plain\" id=\"" + id + "\">" + base64(deflated(bytes, 9)) +
          "</script>\n";
@@ -142,9 +142,9 @@ std::string page_data_json(const Page& page) {
   return data.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Tables of more columns may be wider than the text.
+/// Tables of more columns than this may be wider than the text.
 constexpr size_t widest_in_text = 8;
-/// Cells of more letters must not become towers of single words.
+/// Cells of more letters than this have a least width, so that their words do not stand in a tower.
 constexpr size_t longest_in_narrow_cell = 40;
 
 std::string row_of(const Table& table, const std::vector<Text>& cells, const std::string& tag) {
@@ -167,7 +167,7 @@ std::string items_of(const std::vector<Text>& items) {
   return html + "</ul>";
 }
 
-/// One kind of block after the other.
+/// Writes a block of any kind.
 struct HtmlBlocks {
   std::string operator()(const Text& text) const { return "<p>" + html_of(text) + "</p>\n"; }
   std::string operator()(const Subheading& heading) const {
@@ -213,7 +213,7 @@ struct HtmlBlocks {
         "scripts.</p>\n";
     if (!replay.caption.empty())
       html += "<figcaption>" + html_of(replay.caption) + "</figcaption>\n";
-    std::string head = replay.head;  // no "<" of it can end its element or begin a comment there
+    std::string head = replay.head;  // without "<" it cannot end its element or begin a comment
     replace_all(head, "<", "\\u003c");
     html += "<script type=\"application/json\" id=\"replay-head\">" + head + "</script>\n";
     for (const auto& [name, bytes] : replay.parts) html += packed("replay-" + name, bytes);
@@ -223,8 +223,8 @@ struct HtmlBlocks {
   }
 };
 
-/// Data, library and modules of a page that answers, as its last elements; empty when it does not,
-/// or when the program was built without the library.
+/// The last elements of a page with answers: data, library and modules. Empty for other pages, and
+/// when the program was built without the library.
 std::string answers_html(const Page& page) {
   if (!page.answers.are_given || !can_answer()) return {};
   std::string modules;
@@ -246,7 +246,7 @@ std::string escaped_html(std::string_view text) {
 }
 
 std::string html_of(const Text& text) {
-  // around a run, the innermost first
+  // the tags around a run, the innermost first
   static constexpr std::tuple<Styles, const char*, const char*> tags[] = {
       {superscript, "<sup>", "</sup>"},
       {subscript, "<sub>", "</sub>"},
@@ -303,7 +303,7 @@ std::string inline_svg(std::string_view svg, const std::string& name, const std:
   if (text.empty()) return text;
   cut_all(text, "<!--", "-->");
   cut_all(text, "<desc>", "</desc>");
-  // gnuplot numbers its marks alike in every file
+  // gnuplot gives its marks the same ids in every file
   for (const char quote : {'\'', '"'}) {
     replace_all(text, std::string("id=") + quote, std::string("id=") + quote + name + '-');
     replace_all(text, std::string("href=") + quote + '#',

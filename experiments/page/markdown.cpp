@@ -11,7 +11,7 @@ namespace {
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80); }
 
-/// Escapes what would be a mark, and no more: "f_max" and "[1, 2]" stay readable.
+/// Escapes the characters that would be marks, and no others: "f_max" and "[1, 2]" stay readable.
 std::string escaped_markdown(const std::string& text) {
   const std::string clean = clean_utf8(text);
   std::string result;
@@ -30,7 +30,7 @@ std::string escaped_markdown(const std::string& text) {
     else if (c == '&')
       result += "&amp;";
     else if (c == '<' && (is_word(after) || after == '/' || after == '!' || after == '?'))
-      result += "&lt;";  // else it opens no tag
+      result += "&lt;";  // any other "<" opens no tag
     else if (c == '>' && k == 0)
       result += "&gt;";
     else if (c == '\n')
@@ -41,7 +41,7 @@ std::string escaped_markdown(const std::string& text) {
   return result;
 }
 
-/// Marks around words: spaces at the ends stay outside, where Markdown needs them.
+/// Puts marks around words. Spaces at the ends stay outside, where Markdown needs them.
 std::string wrapped(const std::string& words, const char* open, const char* close) {
   const size_t first = words.find_first_not_of(' '), last = words.find_last_not_of(' ');
   if (first == std::string::npos) return words;
@@ -115,7 +115,7 @@ struct MarkdownBlocks {
 std::string markdown_of(const Text& text) {
   std::string result;
   for (size_t k = 0; k < text.spans.size();) {
-    // runs of one strength stand in one pair of marks
+    // neighbouring strong runs share one pair of marks
     const bool is_strong = text.spans[k].styles & strong;
     std::string words;
     for (; k < text.spans.size() && bool(text.spans[k].styles & strong) == is_strong; ++k)

@@ -1,6 +1,6 @@
 #pragma once
-// Writes a page as Markdown (GitHub's), with its figures as files beside it. Pages that are written
-// so have no headings within sections, no listings and no replays: std::logic_error.
+// Writes a page as Markdown (GitHub's), with its figures as files beside it. Such a page cannot
+// have headings within sections, listings or replays: they throw std::logic_error.
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace ballast::page {
 
 std::string markdown_of(const Page& page);
 
-/// One part of it. Characters that Markdown would take for marks are escaped.
+/// The Markdown of one part of a page. Characters that Markdown would take for marks are escaped.
 std::string markdown_of(const Text& text);
 std::string markdown_of(const Block& block);
 

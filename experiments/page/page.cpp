@@ -18,7 +18,7 @@ void Section::add(const std::vector<Picture>& pictures) {
 }
 
 bool Section::is_empty() const {
-  // a heading says nothing by itself
+  // a heading alone is no content
   return std::ranges::all_of(blocks, [](const Block& block) {
     return std::holds_alternative<Subheading>(block) || page::is_empty(block);
   });
@@ -34,7 +34,7 @@ Table words_table(const std::string& name, const Values& values) {
 void draw_pictures(Page& page, const fs::path& folder, const Drawing& drawing) {
   const bool has_gnuplot = !gnuplot_version().empty();
   bool is_any_missing = false;
-  // draws one; false: it is to be dropped
+  // draws a picture; false: the picture is to be dropped
   const auto is_drawn = [&](Picture& picture) {
     if (picture.plot.panels.empty()) return false;
     is_any_missing |= !has_gnuplot;
@@ -44,7 +44,7 @@ void draw_pictures(Page& page, const fs::path& folder, const Drawing& drawing) {
     try {
       picture.svg = render_svg(picture.plot, figures);
       if (!drawing.is_file_shown) return true;
-      // on its own the file has white behind it, whatever shows it
+      // the file has a white ground, whatever program shows it
       std::string svg = picture.svg;
       svg.insert(svg.find('>', svg.find("<svg")) + 1,
                  "\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>");

@@ -1,6 +1,6 @@
 #pragma once
-// What a page says, in plain words: the model that every page of the program is written in. It
-// knows no HTML and no Markdown; html.hpp and markdown.hpp write it.
+// The content of a page in plain words: the model of every page of the program. It knows neither
+// HTML nor Markdown; html.hpp and markdown.hpp write it.
 //
 //   page::Page page{.title = name_of_run, .lede = {page::exact(steps) + " steps"}};
 //   page::Table table{.head = {"phase", page::marked("error / *gh*")}, .is_number = {false, true}};
@@ -34,15 +34,15 @@ struct List {
 };
 
 struct Table {
-  Text caption = {};            ///< stands above, as a paragraph; empty: none
+  Text caption = {};            ///< a paragraph above the table; empty: none
   std::vector<Text> head = {};  ///< empty: none
   std::vector<std::vector<Text>> rows = {};
   std::vector<bool> is_number = {};  ///< columns that are set right-aligned; empty: none
-  bool is_facts = false;             ///< rows are {what, value}: the first is narrow and soft
+  bool is_facts = false;  ///< rows are {name, value}: the first column is narrow and soft
   bool empty() const { return rows.empty(); }
 };
 
-/// A plot and what is said about it.
+/// A plot and its caption.
 struct Picture {
   Figure plot = {};
   std::vector<Text> caption = {};  ///< one line each
@@ -51,23 +51,23 @@ struct Picture {
   bool empty() const { return plot.panels.empty(); }
 };
 
-/// What is missing or wrong, loudly.
+/// Prominent notices of what is missing or wrong.
 struct Notices {
   Text heading = {};
   std::vector<Text> items = {};
   bool empty() const { return items.empty(); }
 };
 
-/// Text as it stands in a file or for a shell, in a box; under a heading it is closed until the
-/// reader opens it.
+/// Text of a file or for a shell, shown verbatim in a box. With a heading the box is closed until
+/// the reader opens it.
 struct Listing {
   std::string text;
   Text heading = {};
   bool empty() const { return text.empty(); }
 };
 
-/// Bodies in 3D that move: what experiments/page/replay draws in the reader's browser.
-/// view_page.cpp says what the head and each part hold.
+/// Moving bodies in 3D, which experiments/page/replay draws in the reader's browser. view_page.cpp
+/// says what the head and each part hold.
 struct Replay {
   std::string head = {};                                        ///< JSON; empty: no replay
   std::vector<std::pair<std::string, std::string>> parts = {};  ///< name and raw bytes
@@ -76,10 +76,10 @@ struct Replay {
   bool empty() const { return head.empty(); }
 };
 
-/// A paragraph is Text.
+/// An element of a page. A paragraph is Text.
 using Block = std::variant<Text, Subheading, List, Table, Picture, Notices, Listing, Replay>;
 
-/// Says nothing: a table without rows, text without words. Writers leave it out.
+/// True for a table without rows, text without words and the like, which writers leave out.
 bool is_empty(const Block& block);
 
 struct Section {
@@ -92,42 +92,42 @@ struct Section {
   bool is_empty() const;
 };
 
-/// What a page's script is given, so that its tables sort and its figures tell their values
+/// The input of a page's script, which makes tables sort and figures tell their values
 /// (experiments/page/answers). Only HTML has a script.
 struct Answers {
   bool are_given = false;
-  bool with_curves = false;  ///< charts stand in for the figures, whose curves are in the page
+  bool with_curves = false;  ///< charts replace the figures, whose curves are in the page
   std::string data = {};     ///< a JSON object for the page's own modules; empty: none
-  std::vector<std::string> modules = {};  ///< JavaScript of the page's room, run after the common
+  std::vector<std::string> modules = {};  ///< the page's own JavaScript, run after the common one
 };
 
 struct Page {
   std::string title = {};
   std::vector<Text> lede = {};  ///< lines under the title
-  Notices notices = {};         ///< stand before everything else
+  Notices notices = {};         ///< shown before everything else
   std::vector<Section> sections = {};
   Answers answers = {};
 
   void add(Section section) { sections.push_back(std::move(section)); }
 };
 
-/// A table. Its words are lines: the caption, the cells of the head with "||" between them, and
-/// the rows that it has already.
+/// The table that words(name) describe. Their lines are the caption, the head with "||" between its
+/// cells, and rows of the same form.
 Table words_table(const std::string& name, const Values& values = {});
 
-/// Where figures stand, beside the page's file.
+/// The folder of the figures, beside the page's file.
 inline constexpr const char* picture_folder = "figures";
 
-/// What is left beside the page for each figure; the SVG always is.
+/// Options of draw_pictures. The SVG of each figure always stays beside the page.
 struct Drawing {
-  bool is_file_shown = false;  ///< by the page: the file has a white ground; gnuplot's script,
-                               ///< which holds the data, is left only where this is false
-  std::string command = {};    ///< that draws them later, named where gnuplot is missing
+  bool is_file_shown = false;  ///< the page shows the SVG file, which gets a white ground; only
+                               ///< where this is false gnuplot's script, with the data, stays
+  std::string command = {};    ///< draws the figures later; named where gnuplot is missing
 };
 
 /// Draws every picture of `page` into folder/figures and fills its svg. Pictures without panels are
-/// dropped silently; what gnuplot cannot draw is dropped and becomes one of the page's notices, and
-/// without gnuplot one notice stands for all. Throws Error when `folder` cannot be written.
+/// dropped silently. A picture that cannot be drawn or written is dropped and gets a notice on the
+/// page; without gnuplot one notice stands for all.
 void draw_pictures(Page& page, const std::filesystem::path& folder, const Drawing& drawing = {});
 
 }  // namespace ballast::page

@@ -14,22 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pixels beside the axes' boxes.
+/// Margins to the left and right of the panels' boxes [pixels].
 constexpr double left_margin = 98.0, right_margin = 22.0;
 
-/// What an axis must show.
+/// The range that an axis must show.
 struct Extent {
   bool is_log = false;
   double low = 1e300, high = -1e300;
 
-  /// Takes in a value that the axis can show: finite, and positive where it is logarithmic.
+  /// Extends the range by a value that the axis can show: finite, and positive if logarithmic.
   void add(double value) {
     if (!std::isfinite(value) || (is_log && value <= 0.0)) return;
     low = std::min(low, value);
     high = std::max(high, value);
   }
   bool is_empty() const { return low > high; }
-  /// `margin` of the span to both sides.
+  /// Extends the range by `margin` times its span to both sides.
   void pad(double margin) {
     if (is_log) {
       // a constant gets a factor of two to both sides
@@ -38,7 +38,7 @@ struct Extent {
       high *= std::exp(more);
       return;
     }
-    // a constant gets room above and below; so does what differs in digits that no axis writes
+    // a constant gets room above and below; so do values that agree in all digits of an axis
     const double size = std::max(std::abs(low), std::abs(high));
     const bool is_constant = high - low <= std::max(1e-6 * size, 1e-100);
     const double span = is_constant ? std::max(size * 0.1, 1e-9) : high - low;
@@ -51,7 +51,7 @@ struct Extent {
   }
 };
 
-/// 1 to 9 of every decade within the extent: marked without a number.
+/// The ticks at 1 to 9 times every power of ten within the extent, drawn without numbers.
 std::vector<double> minor_log_ticks(const Extent& extent) {
   std::vector<double> ticks;
   for (double decade = std::floor(std::log10(extent.low)); std::pow(10.0, decade) < extent.high;
@@ -64,8 +64,8 @@ std::vector<double> minor_log_ticks(const Extent& extent) {
   return ticks;
 }
 
-/// Of all curves, error bars and reference lines of a panel, padded; the panel's own limits where
-/// it has them. Throws std::invalid_argument when there is nothing to show.
+/// The extent of all curves, error bars and reference lines of a panel, padded; the panel's own
+/// limits replace it where given. Throws std::invalid_argument when there is nothing to show.
 Extent y_extent(const Panel& panel) {
   Extent extent{panel.log_y};
   for (const Curve& curve : panel.curves)
@@ -98,15 +98,15 @@ Extent x_extent(const Panel& panel) {
   return extent;
 }
 
-/// A panel's part of the figure, as gnuplot has it: shares of the height, from below. Keys and
-/// labels take their room within it.
+/// A panel's part of the figure in gnuplot's units: shares of the height, counted from below. Keys
+/// and labels lie within it.
 struct PanelPlace {
   double origin, size;
   bool shows_x;  ///< numbers and label below the x axis
 };
 
-/// One place for each panel, from the top down: below the last, or below each when the axes differ,
-/// there is room for numbers and x label.
+/// The places of the panels from the top down. There is room for numbers and x label below the last
+/// panel, or below each when the x labels differ.
 std::vector<PanelPlace> panel_places(const Figure& figure) {
   const std::vector<Panel>& panels = figure.panels;
   const bool is_shared = std::all_of(panels.begin(), panels.end(), [&](const Panel& panel) {
@@ -121,8 +121,8 @@ std::vector<PanelPlace> panel_places(const Figure& figure) {
   return places;
 }
 
-/// As gnuplot's enhanced text, {/:Italic f}_{max}. In single quotes gnuplot expands nothing (double
-/// quotes would run what is between backquotes).
+/// The text in gnuplot's enhanced notation, {/:Italic f}_{max}, in single quotes: there gnuplot
+/// expands nothing, while in double quotes it would run commands between backquotes.
 std::string quoted(const page::Text& text) {
   std::string label;
   for (const page::Span& span : text.spans) {
@@ -187,12 +187,12 @@ std::string reference(const ReferenceLine& line) {
   return text + " front font ',13' tc rgb '" + rgb_of(Ink::black) + "'\n";
 }
 
-/// The ticks of a logarithmic axis ('x' or 'y'): with numbers at `numbered`, small ones between.
-/// Empty: at 1, 2, 5 of every decade, only the powers of ten where there are many decades.
+/// The ticks of a logarithmic axis ('x' or 'y'): with numbers at `numbered`, small ones between. If
+/// `numbered` is empty: numbers at 1, 2, 5 of every decade, from 3 decades on at powers of ten.
 std::string log_axis(char axis, const Extent& extent, std::vector<double> numbered) {
   if (numbered.empty()) {
     numbered = minor_log_ticks(extent);
-    // the first digit of each decides; over less than half a decade all are numbered
+    // the first digit of a tick decides; over at most half a decade all ticks have numbers
     const double decades = std::log10(extent.high / extent.low);
     std::erase_if(numbered, [&](double tick) {
       const long digit = std::lround(tick / std::pow(10.0, std::floor(std::log10(tick * 1.0001))));
@@ -302,7 +302,7 @@ std::string render_svg(const Figure& figure, const fs::path& folder, double seco
   }
   create_folder(fs::absolute(folder));
   write_whole_file(commands, script);
-  // absolute: a name beginning with "-" or "<" would mean something to gnuplot
+  // absolute: gnuplot would not take a name that begins with "-" or "<" for a file
   ProgramResult child = run_program("gnuplot", {"-d", fs::absolute(commands).string()}, seconds);
   if (!child.succeeded()) throw Error(name + why(child, seconds));
   if (child.output.find("</svg>") == std::string::npos)
@@ -322,7 +322,7 @@ void thin_out(std::vector<double>& x, std::vector<double>& y, size_t limit) {
   };
   for (size_t s = 0; s < stretches; ++s) {
     const size_t begin = s * count / stretches, end = (s + 1) * count / stretches;
-    size_t least = begin, most = begin;  // the first where nothing is finite
+    size_t least = begin, most = begin;  // the first sample if none is finite
     for (size_t k = begin; k < end; ++k) {
       if (!std::isfinite(y[k])) continue;
       if (!std::isfinite(y[least]) || y[k] < y[least]) least = k;

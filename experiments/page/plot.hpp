@@ -1,6 +1,6 @@
 #pragma once
-// Plots by gnuplot: the one place that knows it. A figure is plain data; its script holds the data
-// too, so that `gnuplot figures/x.gnuplot > x.svg` makes the same picture again.
+// Plots by gnuplot; no other code runs it. A figure is plain data; its script holds the data too,
+// so that `gnuplot figures/x.gnuplot > x.svg` makes the same picture again.
 
 #include <filesystem>
 #include <optional>
@@ -17,9 +17,9 @@ enum class Ink { black, blue, vermilion, green, orange, sky, purple, grey, light
 const char* rgb_of(Ink ink);  ///< "#rrggbb"
 
 enum class Mark {
-  line,         ///< NaN breaks it
+  line,         ///< NaN breaks the line
   marked_line,  ///< with a point at each value
-  points,       ///< filled, of the curve's shape; with y_error: bars
+  points,       ///< filled, of the curve's shape; with bars where y_error is given
   area,         ///< filled between y and y_low
 };
 
@@ -33,7 +33,7 @@ struct Curve {
   MarkShape shape = MarkShape::circle;
   double width = 1.6;  ///< of the line, or size of the points
   bool dashed = false;
-  int fineness = 0;  ///< of dashes, 0 to 2: ever shorter ones
+  int fineness = 0;  ///< of dashes, 0 to 2: the larger, the shorter they are
   double opacity = 1.0;
   std::vector<double> y_error = {};  ///< points: half length of the bars
   std::vector<double> y_low = {};    ///< area: lower bound
@@ -58,7 +58,7 @@ struct Panel {
   std::optional<double> y_min = {}, y_max = {}, x_min = {}, x_max = {};
   std::vector<Curve> curves = {};
   std::vector<ReferenceLine> lines = {};
-  std::vector<double> x_ticks = {};  ///< numbered; empty: chosen by the range
+  std::vector<double> x_ticks = {};  ///< with numbers, if log_x; empty: chosen by the range
 };
 
 struct Figure {
@@ -70,22 +70,21 @@ struct Figure {
   bool has_letters = false;        ///< (a), (b) ... above the panels: for print
 };
 
-/// The script, data included; output goes to standard output. Throws std::invalid_argument when a
-/// panel has nothing to show.
+/// The gnuplot script, data included, which writes to standard output. Throws std::invalid_argument
+/// when a panel has nothing to show.
 std::string gnuplot_script(const Figure& figure);
 
-/// Version line of the gnuplot found on PATH ("gnuplot 5.4 patchlevel 4"); empty when there is
-/// none.
+/// The version line of the gnuplot on PATH ("gnuplot 5.4 patchlevel 4"); empty without gnuplot.
 std::string gnuplot_version();
 
-/// Writes folder/<name>.gnuplot and folder/<name>.svg, each beside and renamed, and returns the
-/// SVG's text. The child gets no shell and reads no configuration; it is ended after `seconds`.
-/// Throws Error naming the figure; an older SVG of that name is gone then.
+/// Writes folder/<name>.gnuplot and folder/<name>.svg, each whole or not at all, and returns the
+/// SVG's text. gnuplot runs without a shell, reads no configuration and is ended after `seconds`.
+/// Throws Error naming the figure; an older SVG of that name is removed in that case, too.
 std::string render_svg(const Figure& figure, const std::filesystem::path& folder,
                        double seconds = 60.0);
 
-/// At most `limit` samples that look the same: the least and the largest of each stretch, in their
-/// order; NaN once per stretch.
+/// Thins x, y out to at most `limit` samples that look the same: the least and the largest y of
+/// each stretch, in their order; one NaN for a stretch of NaN. Does nothing if `limit` < 4.
 void thin_out(std::vector<double>& x, std::vector<double>& y, size_t limit);
 
 }  // namespace ballast

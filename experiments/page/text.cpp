@@ -24,7 +24,7 @@ namespace {
 constexpr std::pair<std::string_view, Styles> marks[] = {
     {"**", strong}, {"*", symbol}, {"~", subscript}, {"^", superscript}, {"`", code}};
 
-/// One reading of a notation.
+/// The parser of one notation.
 class Notation {
  public:
   Notation(std::string_view notation, const Values& values) : whole_(notation), values_(values) {}
@@ -55,9 +55,9 @@ class Notation {
     if (styles != around) fail("a mark isn't closed");
   }
 
-  /// Length of the mark at the start of `rest`, which switches a style; 0 when there is none.
+  /// Applies a mark at the start of `rest`, which switches a style. Returns its length; 0: no mark.
   size_t read_mark(std::string_view rest, Styles& styles) const {
-    if (styles & code) {  // in code everything but its end stands for itself
+    if (styles & code) {  // in code every character but the closing mark is literal
       if (rest[0] != '`') return 0;
       styles &= ~code;
       return 1;
@@ -76,7 +76,7 @@ class Notation {
     return 0;
   }
 
-  /// Length of a link or a value at the start of `rest`, which is added; 0 when there is none.
+  /// Adds a link or a value at the start of `rest`. Returns its length; 0 when there is none.
   size_t read_bracket(std::string_view rest, Styles styles, const std::string& link) {
     if (styles & code) return 0;
     if (rest[0] == '{') {
@@ -160,7 +160,7 @@ Text::Text(std::string words, Styles styles, std::string link) {
 
 Text& Text::operator+=(const Text& other) {
   for (const Span& span : other.spans) {
-    // runs that look alike are one run
+    // neighbouring runs of equal style and link become one run
     if (!spans.empty() && spans.back().styles == span.styles && spans.back().link == span.link)
       spans.back().text += span.text;
     else
@@ -223,7 +223,7 @@ std::string plain_words(const Text& text) {
 
 std::string clean_utf8(std::string_view text) {
   using Json = nlohmann::json;
-  // JSON's writer replaces what is no UTF-8
+  // JSON's writer replaces invalid UTF-8
   const std::string json = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string result;
   for (const char c : Json::parse(json).get<std::string>()) {

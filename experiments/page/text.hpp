@@ -4,9 +4,9 @@
 //
 //   Text words = marked("Force *f*~g~ above 10^−3^ N. ((Grey: each step.))") + name_from_a_file;
 //
-// A string becomes Text as it is: no character of it means anything, so that what comes from files
-// and users cannot become markup. Only marked() reads the notation; it is given literals of this
-// program and its text files (words), never anything from outside.
+// A string becomes Text as it is: none of its characters is special, so that text from files and
+// users cannot become markup. Only marked() reads the notation; it gets literals of this program
+// and its text files (words), never text from outside.
 
 #include <concepts>
 #include <functional>
@@ -20,7 +20,7 @@ namespace ballast::page {
 /// Styles of a run, one bit each.
 using Styles = unsigned;
 inline constexpr Styles strong = 1, symbol = 2, subscript = 4, superscript = 8, code = 16;
-inline constexpr Styles note = 32;             ///< soft: an aside, where to look
+inline constexpr Styles note = 32;             ///< soft: asides and hints where to look
 inline constexpr Styles good = 64, bad = 128;  ///< a bound that is met or missed
 
 struct Span {
@@ -46,11 +46,11 @@ struct Text {
 /// The same words with `styles` added to every run.
 Text styled(Text text, Styles styles);
 
-/// The parts between the marks, which no run of the text may share with the next; blanks around a
-/// mark are no part's.
+/// Splits a text at every `mark`; each mark must lie within one run. Blanks around a mark belong to
+/// no part.
 std::vector<Text> parts_of(const Text& text, std::string_view mark);
 
-/// What stands for {name} in a notation.
+/// The texts that replace each {name} in a notation.
 using Values = std::map<std::string, Text>;
 
 /// Reads the notation: **strong**, *symbol*, ~subscript~, ^superscript^, `code`, ((note)),
@@ -64,20 +64,20 @@ Text marked(std::string_view notation, const Values& values = {});
 std::string filled(std::string_view document,
                    const std::function<std::string(const std::string& words)>& value);
 
-/// Words alone: titles, file names, tests. Powers keep their height (10⁻⁴) where Unicode has it.
+/// Words alone for titles, file names, tests. Powers stay raised (10⁻⁴) where Unicode has them so.
 std::string plain_words(const Text& text);
 
-/// The text with what is no UTF-8 and every control character except line breaks and tabs replaced
-/// by U+FFFD.
+/// The text with U+FFFD in place of invalid UTF-8 and of every control character except line breaks
+/// and tabs.
 std::string clean_utf8(std::string_view text);
 
-/// How a page writes numbers: one way for every page.
+/// Every page writes numbers in this way.
 ///
 /// `digits` significant digits; powers of ten below 1e-3 and from 1e6 on; a dash for NaN and
 /// infinities.
 Text number(double value, int digits = 3);
 
-/// The same without trailing zeros: settings and counts, which are exact.
+/// number() without trailing zeros, for settings and counts, which are exact.
 Text exact(double value, int digits = 7);
 Text exact(std::integral auto count) { return exact(static_cast<double>(count)); }
 
@@ -86,7 +86,7 @@ Text exact(std::integral auto count) { return exact(static_cast<double>(count));
 Text quantity(double value, const char* unit, int digits = 3);
 Text exact_quantity(double value, const char* unit);
 
-/// "1.23 ± 0.04": the error to two digits of its own; no error when it isn't known.
+/// "1.230 ± 0.040": the error to two digits of its own; no error when it is 0 or not known.
 Text with_error(double value, double error);
 
 /// A relative deviation with its sign: "+3.1 %", "−12 %".
@@ -99,21 +99,21 @@ Text interval(double low, double high);
 /// either is NaN.
 Text verdict(double value, double bound);
 
-/// Prose in text files: experiments/<room>/texts/*.md are built into the program (ballast_file of
-/// CMake), one entry under each headline, in the notation of text.hpp:
+/// An entry of the text files experiments/<room>/texts/*.md, which are built into the program
+/// (ballast_file of CMake). They have one entry under each headline, in the notation of marked():
 ///
 ///   # fig3.found
 ///   Displacement *x* of the wall. Here it first goes in by {size}.
 ///
 ///   page::words("fig3.found", {{"size", page::quantity(1e3 * size, "mm")}})
 ///
-/// An entry's name stands once in all rooms. Texts of one figure may share their values. Throws
-/// std::logic_error when there is no entry of that name, and as marked() does.
+/// A name occurs once in all rooms. The texts of one figure may share `values`: unused ones are
+/// ignored. Throws std::logic_error when there is no entry of that name, and as marked() does.
 Text words(const std::string& name, const Values& values = {});
 
-/// The entries of such texts by their names. An entry's lines are joined by spaces, an empty line
-/// in it is a line break. Throws std::logic_error when a name occurs twice, or words stand before a
-/// headline.
+/// The entries of such texts by name. The lines of an entry are joined by spaces; an empty line in
+/// it is a line break. Throws std::logic_error when a name occurs twice, or words stand before the
+/// first headline.
 std::map<std::string, std::string> entries_of(const std::string& texts);
 
 }  // namespace ballast::page

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the program prints about the file that it reads or makes. Throws Error that names it.
+/// The output of a program that reads or makes `file`. Throws Error that names the file.
 std::string output_of(const std::string& program, const std::vector<std::string>& arguments,
                       const fs::path& file) {
   const ProgramResult result = run_program(program, arguments, /*seconds=*/300.0);
@@ -27,14 +27,14 @@ std::string output_of(const std::string& program, const std::vector<std::string>
   return result.output;
 }
 
-/// 64 digits.
+/// The SHA-256 of a file as 64 hexadecimal digits.
 std::string sha256_of(const fs::path& file) {
-  // a line begins with \ where the name has one
+  // sha256sum's line begins with \ where the name has one
   const std::string line = output_of("sha256sum", {"--", file.string()}, file);
   return line.substr(line.starts_with('\\'), 64);
 }
 
-/// What stands in its files, by the path within the archive.
+/// The texts of the archive's files by their paths within the archive.
 using Files = std::map<std::string, std::string>;
 
 /// One row for each packing that the campaign starts from.
@@ -77,7 +77,7 @@ Files files_of(PaperData& data, const ArchiveOrder& order) {
   for (const std::string& scene : scenes) {
     const fs::path file = find_scene(scene);
     fs::path place = fs::path("scenes") / file.filename();
-    // a plan finds a scene that it names by a path from where it is itself
+    // a plan that names a scene by a path finds it from the plan's own folder
     if (!order.plan.empty() && file == scene)
       place = fs::absolute(file).lexically_normal().lexically_relative(
           fs::absolute(order.plan).lexically_normal().parent_path());
@@ -113,7 +113,7 @@ fs::path write_archive(PaperData& data, const ArchiveOrder& order) {
   }
   write_whole_file(folder / "SHA256SUMS", sums);
   members.push_back(name + "/SHA256SUMS");
-  // no owner, no date: the same rows are the same bytes
+  // without owner and date the same rows give the same bytes
   std::vector<std::string> words{"--create",
                                  "--force-local",
                                  "--file=" + neighbour.string(),

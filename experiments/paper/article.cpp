@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In the notation of Pandoc.
+/// The text in the notation of Pandoc.
 std::string pandoc_of(const page::Text& text) {
   std::string result;
   for (const page::Span& span : text.spans) {
@@ -41,7 +41,7 @@ std::vector<page::Picture> figures_in(std::string_view prose,
   return shown;
 }
 
-/// By Pandoc, in `folder`. False: it is missing or failed.
+/// Makes article.<suffix> in `folder` by Pandoc. Returns false if Pandoc is missing or failed.
 bool typeset(const fs::path& folder, const std::string& suffix, std::vector<std::string> arguments,
              std::ostream& notes) {
   const std::string target = (folder / ("article." + suffix)).string();
@@ -79,7 +79,7 @@ ExitCode write_article(PaperData& data, const fs::path& folder, std::ostream& no
   pictures.add({"figures", "", {}});
   pictures.sections.back().add(figures_in(article_prose(), sections));
   create_folder(folder);
-  write_whole_file(folder / "article.md", article_of(sections));  // first: the folder is ours
+  write_whole_file(folder / "article.md", article_of(sections));  // first: marks the folder as ours
   page::draw_pictures(pictures, folder, {.is_file_shown = true});
   const bool html = typeset(folder, "html", {"--mathml", "--self-contained"}, notes),
              pdf = typeset(folder, "pdf", {"--pdf-engine=xelatex"}, notes);

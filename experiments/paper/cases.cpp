@@ -1,5 +1,5 @@
-// Tables of cases: what was changed, each case at the values it was driven at, and what follows,
-// sample by sample. A section is a row of one of the lists of tables below and its words.
+// Tables of cases: each case changes something. The tables show the cases at the values they were
+// driven at and compare them sample by sample. A section is its rows of case_tables and its words.
 
 #include <set>
 
@@ -23,14 +23,14 @@ constexpr LabelledMeasure stage_columns[] = {{"rise", "Δx~max~ (mm)", 1e3},
                                              {"first_time90", "t~90~ (s)", 1.0},
                                              {"error", "error (g·h)", 1.0}};
 
-/// A table of what some cases come to.
+/// A table that compares some cases.
 struct CaseTable {
   const char* section;
   std::vector<std::pair<const char*, Selection>> cases;  ///< names and rows
-  RunMeasure along = "frequency";                        ///< what the rows of a case are at
+  RunMeasure along = "frequency";                        ///< quantity that varies within a case
   RunMeasure exponent_along = "";                        ///< empty: no exponents
-  bool has_changes = false;                              ///< of each case beside the first
-  bool has_numbers = false;                              ///< the paper's, beside each case
+  bool has_changes = false;                              ///< of each case against the first
+  bool has_numbers = false;                              ///< the paper's, against each case
 };
 
 /// In the order of a section's tables.
@@ -49,7 +49,7 @@ const CaseTable case_tables[] = {
      "",
      true},
     {"reading", {{"vibrated_box_paper", "reading"}}},
-    // other packings: how they were deposited, and of what grains
+    // other packings: deposited in other ways, and of other grains
     {"deposits",
      {{"lid pressed, μ 0.4", "deposits lid_pressure>0 deposit_friction=0.4"},
       {"lid pressed, μ 0.8", "deposits lid_pressure>0 deposit_friction=0.8"},
@@ -93,7 +93,7 @@ const CaseTable case_tables[] = {
       {"wider boxes, H/d fixed", "sizes name~wide"}},
      "grains",
      "grains_across"},
-    // what has to be chosen, each alone
+    // choices that have to be made, each varied alone
     {"sensitivity", {{"step h", "sensitivity friction=0.4 lid_raise=0.01"}}, "step"},
     {"sensitivity", {{"friction μ", "sensitivity friction!0.4"}}, "friction"},
     {"sensitivity", {{"gap under the lid", "sensitivity lid_raise!0.01"}}, "lid_raise"}};
@@ -104,7 +104,7 @@ struct Case {
   Groups groups;
 };
 
-/// A row for each case and value; what the article cites of them.
+/// The table with a row for each case and value. Keeps the numbers that the article cites.
 page::Table stage_table(const std::vector<Case>& cases, const std::string& unit,
                         PaperSection& section) {
   page::Table table = page::words_table("case_columns");
@@ -123,8 +123,8 @@ page::Table stage_table(const std::vector<Case>& cases, const std::string& unit,
   return table;
 }
 
-/// What exponents are taken over: all values of a case, three or more; of frequencies those from 5
-/// to 60 Hz, and two of them alone, by which cases that were driven at fewer are compared.
+/// The ranges over which exponents are taken: all values of a case, three or more; of frequencies
+/// those from 5 to 60 Hz, and pairs with 60 Hz, to compare cases that were driven at fewer.
 std::vector<Groups> ranges_of(const Groups& groups, bool is_frequency) {
   std::vector<Groups> ranges;
   Groups wide = groups;
@@ -144,7 +144,7 @@ SampleMean mean_of(const std::map<double, double>& by_seed) {
   return sample_mean(values);
 }
 
-/// Of the samples that both have: by how much the exponents differ.
+/// The mean difference of the exponents over the samples that both have.
 page::Text change_words(const std::map<double, double>& from, const std::map<double, double>& to) {
   std::map<double, double> change;
   for (const auto& [seed, value] : from)
@@ -153,7 +153,7 @@ page::Text change_words(const std::map<double, double>& from, const std::map<dou
   return mean.samples < 2 ? "–" : words_with_interval(mean) + ", p " + words_of_p(mean.p());
 }
 
-/// Exponents of Delta x_max and v_max, sample by sample; each case's first ones are findings.
+/// Adds exponents of Delta x_max and v_max, sample by sample; a case's first range is a finding.
 void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperSection& section) {
   page::Table table = page::words_table("exponents");
   const bool is_frequency = what.exponent_along == "frequency";
@@ -183,8 +183,8 @@ void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperS
   section.add(table);
 }
 
-/// What every other case does beside the first at the same value, and how likely so large a change
-/// of C is by chance: alone, and among all of the table.
+/// Adds the changes of every other case against the first at the same value, and the probability p
+/// of so large a change of C by chance: alone, and among all changes of the table.
 void add_changes(const CaseTable& what, const std::vector<Case>& cases, PaperSection& section) {
   page::Table table = page::words_table("changes", {{"reference", cases.front().name}});
   std::vector<double> chances;
@@ -249,7 +249,7 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
   return std::isfinite(fit.exponent) ? found(fit, misfit_of(points).p) : Found{};
 }
 
-/// The paper's numbers in every case, each with its verdict; how many each meets is a finding.
+/// Adds the paper's numbers in every case with verdicts; how many a case meets is a finding.
 void add_numbers(const std::vector<Case>& cases, PaperSection& section) {
   page::Table table = page::words_table("paper_numbers");
   for (const PaperNumber& number : paper_numbers) table.head.push_back(page::marked(number.name));

@@ -7,29 +7,29 @@
 namespace ballast {
 namespace {
 
-/// Points of one colour and mark, and a row of a table.
+/// A series of runs: points of one colour and mark, and a row of a table.
 struct Series {
   const char* name;
   Selection rows;
   Ink ink;
   MarkShape shape = MarkShape::circle;
-  RunMeasure along = "";        ///< what is varied
+  RunMeasure along = "";        ///< the varied quantity
   const char* title = nullptr;  ///< in the legend, in the notation of page::marked()
 };
-/// What Eq. 3 has: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11.
+/// The variables of Eq. 3: nu [Hz], f_max/(m g), g [m/s^2], m/(m + m_w), as in the paper's Fig. 11.
 const std::vector<Series> all_series{
     {"ν", "frequency; slowest", Ink::blue, MarkShape::triangle, "frequency", "ν"},
     {"f_max", "force", Ink::vermilion, MarkShape::circle, "force_over_weight", "f~max~"},
     {"g", "gravity", Ink::green, MarkShape::square, "gravity", "g"},
     {"m_w", "mass", Ink::purple, MarkShape::diamond, "grain_share", "m~w~"}};
-/// Larger loads on the lightest wall, in the same box: held against the curve of the others.
+/// Larger loads on the lightest wall, in the same box, compared with the curve of the others.
 const Series light_wall{.name = "light wall",
                         .rows = "loads largest_size>0.04",
                         .ink = Ink::black,
                         .shape = MarkShape::triangle,
                         .title = "m~w~  = m/10, f~max~  ≥ 6 m g"};
 
-/// Settings so near to one another are the same: the base run of all series is known again.
+/// Settings so near to one another are the same: this recognises the base run of all series.
 bool are_same(const RunRow& a, const RunRow& b) {
   return std::ranges::all_of(
       std::array{"frequency", "gravity", "force_over_weight", "wall_mass_over_grains"},
@@ -49,7 +49,7 @@ std::vector<CurvePoint> distinct_points(const std::vector<Groups>& groups) {
   return points;
 }
 
-/// Least squares of the points' ln Delta x_max; `offsets`: a factor for each series but the first.
+/// Least-squares fit of ln Delta x_max; `offsets` adds a factor for each series but the first.
 WeightedFit fit_points(const std::vector<CurvePoint>& points, const LogPolynomial& shape,
                        int values, double deviation, bool offsets) {
   const auto count = static_cast<Eigen::Index>(points.size());
@@ -84,8 +84,8 @@ LogPolynomial polynomial(const std::vector<CurvePoint>& points, int values, doub
 
 constexpr double to_mm = 1e3;
 
-/// Half width of the 95 % interval of a combination of the curve's values: the errors are the
-/// pooled ones.
+/// Half width of the 95 % interval of a linear combination (`row`) of the curve's coefficients,
+/// with the pooled errors.
 double half_width(const OneCurve& all, const Eigen::VectorXd& row) {
   return student_t95(all.between.degrees_of_freedom) * all.curve.fit.error_at(row);
 }
@@ -109,7 +109,7 @@ Curve band(const OneCurve& all, const Low& low, const High& high) {
   return area;
 }
 
-/// Means of C along X, their bars the error that the fit gives them.
+/// Means of C along X; their bars are the errors that the fit gives them.
 Curve curve_of(const OneCurve& all, const std::vector<CurvePoint>& shown, const Series& series) {
   Points points;
   for (const CurvePoint& point : shown) {
@@ -120,7 +120,7 @@ Curve curve_of(const OneCurve& all, const std::vector<CurvePoint>& shown, const 
   return curve_of(points, page::marked(series.title), series.ink, series.shape);
 }
 
-/// `small_loads` and `light`: points that are not of the curve.
+/// The panel of C along X. `small_loads` and `light` are points that the curve was not fitted to.
 Panel prefactor_panel(const OneCurve& all, const std::vector<CurvePoint>& small_loads,
                       const std::vector<CurvePoint>& light) {
   Panel panel{.x_label = page::marked("right side of Eq. 3 without *C*,  *X*  (mm)"),
@@ -153,7 +153,7 @@ Panel prefactor_panel(const OneCurve& all, const std::vector<CurvePoint>& small_
   return panel;
 }
 
-/// C and the local exponent along X.
+/// The table of C and the local exponent along X.
 page::Table along_table(const OneCurve& all) {
   page::Table table = page::words_table("curve.along");
   std::vector<double> places{all.least};
@@ -205,21 +205,21 @@ page::Values words_for(const OneCurve& all) {
 }
 
 // Power laws and lines through the origin: Figs. 9, 10 and 11, C against its theory and against the
-// shape of the box. A figure is a row of `laws` below and its words.
+// shape of the box. A figure is a row of all_laws() and its words.
 
-/// Measured means against a law y ~ x^exponent, one figure.
+/// One figure: measured means against a law y ~ x^exponent.
 struct Law {
   const char *section, *name;  ///< its words are <name>.title, .paper, .found, .claim
   std::vector<Series> families;
   LabelledMeasure x, y;
   double exponent;               ///< of the paper, or of the theory
-  double split = not_known;      ///< exponents up to here and from here on are said too; NaN: none
+  double split = not_known;      ///< two more exponents up to here and from here on; NaN: none
   double reference = not_known;  ///< y = reference x is drawn too
-  /// Judged; else a finding.
+  /// Returns whether the law is judged against the paper; else it is a finding.
   bool is_of_paper() const { return std::string_view(section).starts_with("fig"); }
 };
 
-/// Figs. 9 to 11, then C along the shape of the box, and against its theory.
+/// All laws: Figs. 9 to 11, then C along the shape of the box, and against its theory.
 std::vector<Law> all_laws() {
   using enum MarkShape;
   const LabelledMeasure rise{"rise", "Δ*x*~max~  (mm)", 1e3},
@@ -231,7 +231,7 @@ std::vector<Law> all_laws() {
       ratio{"theory_ratio", "*C* / *C*~theory~", 1.0};
   const Series slow{"5 Hz", "box frequency=5", Ink::blue},
       fast{"20 Hz", "box frequency=20", Ink::vermilion};
-  // a run of several families is a point of the first
+  // a run that is in several families is a point of the first
   const std::vector<Series> everything{
       all_series[0],
       all_series[1],
@@ -252,7 +252,7 @@ std::vector<Law> all_laws() {
           {"theory", "theory", everything, eq3, ratio, 0.0}};
 }
 
-/// Exponent over part of the points: a law that bends has two.
+/// The power law fitted to the points between `low` and `high`: a law that bends has two exponents.
 PowerFit fit_part(const Points& points, double low, double high) {
   Points part;
   for (size_t k = 0; k < points.x.size(); ++k)
@@ -260,14 +260,14 @@ PowerFit fit_part(const Points& points, double low, double high) {
   return fit_power(part.x, part.y);
 }
 
-/// y over x; of what is expected to be a constant, y itself.
+/// The factor y over x; where a constant is expected, y itself.
 Proportion proportion(const Law& law, const Points& points) {
   const std::vector<double> ones(points.x.size(), 1.0);
   return fit_proportion(law.exponent == 0.0 ? ones : points.x, points.y);
 }
 
-/// The measured points are in the panel; beside them the fitted power law, the exponent that is
-/// expected through the fit in the middle of the points, and a line of reference.
+/// Adds lines to the panel of the measured points: the fitted power law, and either the expected
+/// exponent through the fit in the middle of the points, or the theory, or a line of reference.
 void draw_lines(const Law& law, const Points& all, const PowerFit& fit, Panel& panel) {
   const auto [low, high] = std::ranges::minmax_element(all.x);
   const Drawn range{*low, *high, true};
@@ -346,8 +346,8 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
                   {.value = ratio.factor, .low = ratio.low, .high = ratio.high});
 }
 
-/// Points of `groups` that are not of the curve. Said of them: whether all fall on one curve, and
-/// how far these lie from that without them.
+/// Returns the points of `groups` that are not in the curve `all`. Reports whether all points fall
+/// on one curve, and how far the returned ones lie from the curve without them.
 std::vector<CurvePoint> points_beside(const char* name, const OneCurve& all,
                                       const std::vector<Groups>& groups, PaperSection& section) {
   OneCurve more = one_curve(groups);
@@ -428,7 +428,7 @@ OneCurve one_curve(const std::vector<Groups>& groups) {
 void fill_curve(PaperData& data, PaperSection& section) {
   std::vector<Groups> groups;
   for (const Series& series : all_series) groups.push_back(data.groups(series.rows, series.along));
-  // X has the ratio of the masses and of f_max to the weight only where f_max >> f_g
+  // Eq. 3 has the ratio of the masses and that of f_max to the weight only where f_max >> f_g
   std::vector<Groups> larger = groups;
   for (Groups& series : larger)
     std::erase_if(series, [](const Group& group) {

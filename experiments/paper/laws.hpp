@@ -1,21 +1,21 @@
 #pragma once
-// Do all that is varied fall on one curve? Eq. 3 says that Delta x_max depends on nu, f_max, g and
-// m_w through its right side X alone, and linearly. The first half, the grouping, is tested apart
-// from the second: ln Delta x_max as a polynomial of ln X.
+// Tests whether all varied runs fall on one curve. Eq. 3 says that Delta x_max depends on nu,
+// f_max, g and m_w through its right side X alone, and linearly. The grouping (through X alone) is
+// tested apart from the linearity: ln Delta x_max is fitted by a polynomial of ln X.
 
 #include "experiments/paper/sections.hpp"
 
 namespace ballast {
 
 struct CurvePoint {
-  size_t series = 0;  ///< of the list of groups
+  size_t series = 0;  ///< its place in the list of groups
   Group group;
   double x = not_known;  ///< X [m]
 
   double log_rise() const { return group.log_mean("rise"); }
 };
 
-/// ln Delta x_max as a polynomial of ln(X/X0), X0 the middle of the points.
+/// ln Delta x_max as a polynomial of u = ln(X/X0). X0 is the geometric mean of the points' X.
 struct LogPolynomial {
   WeightedFit fit;
   double middle = 1.0;  ///< X0 [m]
@@ -26,31 +26,31 @@ struct LogPolynomial {
 };
 
 struct OneCurve {
-  std::vector<CurvePoint> points;  ///< distinct runs: the base of all series counts once
+  std::vector<CurvePoint> points;  ///< distinct runs; the base of all series counts once
   double least = not_known, most = not_known;  ///< X of the points [m]
-  PooledError between;  ///< ln Delta x_max of a sample about its point's mean
-  PooledError paired;   ///< the same when each packing's mean offset is taken out
+  PooledError between;  ///< scatter of a sample's ln Delta x_max about its point's mean
+  PooledError paired;   ///< the same without each packing's mean offset
   LogPolynomial line, curve;
   VarianceRatio line_misfit, curve_misfit;  ///< with the errors `between`
   VarianceRatio paired_misfit;              ///< of the curve, with the errors `paired`
-  VarianceRatio bend;                       ///< of the curve over the line
-  VarianceRatio third;                      ///< of a cubic over the curve
-  VarianceRatio offsets;                    ///< of a factor for each series over the curve
+  VarianceRatio bend;                       ///< improvement of the curve over the line
+  VarianceRatio third;                      ///< improvement of a cubic over the curve
+  VarianceRatio offsets;                    ///< improvement by a factor for each series
   double largest_offset = not_known, offset_error = not_known;  ///< of a series, in ln Delta x_max
 
   bool is_known() const { return points.size() > 4; }
 };
 
-/// `groups`: a list for each series, the values of one thing that Eq. 3 has.
+/// `groups` has a list for each series: the groups at the values of one variable of Eq. 3.
 OneCurve one_curve(const std::vector<Groups>& groups);
 
-/// chi^2 over the degrees of freedom of a fit whose errors are the pooled one.
+/// chi^2 over the degrees of freedom of a fit whose points have the pooled error `error`.
 VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error);
 
-/// f_max/(m g) from which on f_max >> f_g is taken to hold.
+/// The least f_max/(m g) at which f_max >> f_g is taken to hold.
 constexpr double least_load = 2.0;
 
-/// A finding: C with the shape of the box as a second variable beside X.
+/// Reports a finding: the fit of C with the shape of the box as a second variable beside X.
 void report_box(PaperData& data, PaperSection& section);
 
 }  // namespace ballast

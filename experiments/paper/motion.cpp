@@ -20,7 +20,7 @@ std::vector<PairForce> StoredState::pairs() const {
   std::vector<PairForce> pairs;
   for (size_t k = 0; k < contacts.size();) {
     const ContactPoint& first = contacts[k];
-    // the points of one pair stand together: contacts are sorted by (a, b)
+    // the points of one pair follow each other: contacts are sorted by (a, b)
     PairForce pair{first.body_a, first.body_b, first.normal, Vec3::Zero(), Vec3::Zero()};
     double weight = 0.0;
     for (; k < contacts.size() && contacts[k].body_a == first.body_a &&
@@ -32,7 +32,7 @@ std::vector<PairForce> StoredState::pairs() const {
       pair.position += normal * contacts[k].position;
       weight += normal;
     }
-    if (!(weight > 0.0)) continue;  // no compression: no contact of the field
+    if (!(weight > 0.0)) continue;  // a pair without compression is left out
     pair.position /= weight;
     pairs.push_back(pair);
   }

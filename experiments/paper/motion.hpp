@@ -1,6 +1,6 @@
 #pragma once
-// The 5 Hz runs as Figs. 3 to 7 need them, and the states that they keep (record.state_rate),
-// sorted by what the wall is doing: what one says of forces between bodies, and of the stress.
+// The 5 Hz runs as Figs. 3 to 7 need them, and the states that they store (record.state_rate): the
+// phase of the wall, the forces between bodies and the stress of each state.
 
 #include <functional>
 
@@ -27,12 +27,12 @@ SampleMean mean_over(const std::vector<MotionRun>& runs, const Function& quantit
   return sample_mean(values);
 }
 
-/// All contact points of two bodies together: one contact of the field. Forces in newtons, world
-/// frame.
+/// All contact points of two bodies together, taken as one contact. Forces are in newtons, in the
+/// world frame.
 struct PairForce {
   int body_a, body_b;
   Vec3 normal;    ///< unit, from a to b
-  Vec3 position;  ///< of the points, weighted by their normal forces [m]
+  Vec3 position;  ///< mean of the points, weighted by their normal forces [m]
   Vec3 force;     ///< on b [N]
   double normal_force() const { return force.dot(normal); }  ///< > 0: compressive
 };
@@ -44,22 +44,22 @@ double major_inclination(const Mat3& tensor);
 struct StoredState {
   const MechanicalSystem& system;
   Checkpoint at;
-  double step = 0.0;  ///< h of the impulses [s]
+  double step = 0.0;  ///< the step h in which the impulses act [s]
   WallPhase phase = WallPhase::none;
   double wall_speed = 0.0;  ///< outward, smoothed [m/s]
 
-  /// Forces between its bodies, whose contacts must be sorted by (a, b), as detection gives them.
+  /// The forces between the bodies. The contacts must be sorted by (a, b), as detection gives them.
   /// Pairs without a compressive force are left out.
   std::vector<PairForce> pairs() const;
-  /// 1/V sum f l^T over contacts, f on b by a, l from a's centre to b's (from the contact point
-  /// where a is a wall), V between the walls of the box; symmetric part. Compression is positive
-  /// [Pa].
+  /// The symmetric part of 1/V sum f l^T over contacts [Pa]; compression is positive. f is the
+  /// force on b by a, l leads from a's centre to b's (from the contact point where a is a wall), V
+  /// is the volume between the walls of the box.
   Mat3 stress() const;
-  /// A grain's centre; of a wall the place where the pair touches [m].
+  /// The centre of a grain; for a wall the position of the pair's contact [m].
   Vec3 centre(int body, const PairForce& pair) const;
-  /// Where it has a wall of the box [m].
+  /// The position of a wall of the box [m].
   Vec3 wall(BoxWall which) const;
-  /// Between the walls in x, from z = 0 to the lid.
+  /// The rectangle between the walls in x, from z = 0 to the lid.
   XzRectangle box() const {
     return {wall(wall_x_min).x(), wall(wall_x_max).x(), 0.0, wall(wall_lid).z()};
   }
@@ -67,9 +67,9 @@ struct StoredState {
   double middle() const { return 0.5 * (wall(wall_y_min).y() + wall(wall_y_max).y()); }
 };
 
-/// Calls `see` for every stored state after the transient, in the order of time; states whose wall
-/// is slower than 20 % of its largest speed while it moves are left out: they are neither active
-/// nor passive yet. Returns how many were seen. Throws Error.
+/// Calls `see` for every stored state after the transient, in the order of time. States whose wall
+/// moves, but slower than 20 % of its largest speed, are left out: they are neither active nor
+/// passive yet. Returns the number of states seen. Throws Error.
 int for_each_state(const MotionRun& run, const std::function<void(const StoredState&)>& see);
 
 }  // namespace ballast

@@ -13,11 +13,11 @@
 namespace ballast {
 namespace {
 
-/// The paper's time lag of 0.2 s, written with one digit and "about" [s].
+/// The largest time lag that the paper's 0.2 s allows, written with one digit and "about" [s].
 constexpr double paper_lag = 0.26;
 
-/// Largest deviation of a frequency's value from the mean of all, relative: of each sample by
-/// itself, then the mean over samples.
+/// The largest relative deviation of a frequency's value from the mean over frequencies, for each
+/// sample by itself; then the mean over samples.
 SampleMean spread_over(const Groups& groups, RunMeasure measure, double low, double high) {
   std::vector<double> spreads;
   for (const RunRow* row : groups.front().samples) {
@@ -51,7 +51,7 @@ Figure motion_figure(const MotionRun& run) {
   return figure;
 }
 
-/// The motion of the wall at 5 Hz.
+/// Adds the motion of the wall at 5 Hz.
 void add_motion(const std::vector<MotionRun>& runs, PaperSection& section) {
   const SampleMean size = mean_over(runs, [](const auto&s) { return 1e3 * s.contraction.size; }),
                    time = mean_over(runs, [](const auto&s) { return s.contraction.time90; }),
@@ -85,18 +85,18 @@ page::Table branch_table(const std::vector<MotionRun>& runs) {
   return table;
 }
 
-/// A law describes a branch when it leaves at most a tenth of its variance.
+/// A law describes a branch when it leaves at most a tenth of the variance unexplained.
 const PaperRange good_fit = PaperRange::at_least(0.9);
 
-/// How the gain of a period changes while the drive goes on: the last one less the first, over
-/// their mean.
+/// The change of the gain per period in the course of the drive: the last gain less the first, over
+/// the mean gain.
 double gain_trend(const RunSummary& summary) {
   const std::vector<double>& gains = summary.compaction.gains;
   return gains.size() < 2 ? not_known : (gains.back() - gains.front()) / summary.compaction.gain;
 }
 
-/// The paper's straight line with a constant gain in each period, through the level at 0.2 s: of
-/// the first sample.
+/// Adds the paper's straight line with a constant gain in each period, through the level at 0.2 s;
+/// gain and level are those of the first sample.
 void add_gain_line(const MotionRun& run, Panel& panel) {
   const Compaction& compaction = run.summary.compaction;
   const double level = compaction.reference - compaction.initial, begin = paper_window.begin;
@@ -109,7 +109,7 @@ void add_gain_line(const MotionRun& run, Panel& panel) {
       Ink::black));
 }
 
-constexpr int orbit_phases = 200;  // of a period, at which orbits are compared
+constexpr int orbit_phases = 200;  // phases of a period at which orbits are compared
 constexpr double portrait_frequencies[] = {5.0, 10.0};
 
 /// The mean orbit over the periods that count: displacement from the period's first jamming
@@ -137,7 +137,7 @@ Orbit mean_orbit(const RunData& data) {
 /// Orbits at the two frequencies.
 using Portrait = std::array<Orbit, 2>;
 
-/// Where x goes with nu^-2 and v with nu^-1 these are one.
+/// The orbits scaled by nu^2 in x and nu in v; they coincide where x ~ nu^-2 and v ~ nu^-1.
 Portrait collapsed(Portrait orbits) {
   for (size_t k = 0; k < 2; ++k) {
     const double nu = portrait_frequencies[k];
@@ -147,7 +147,7 @@ Portrait collapsed(Portrait orbits) {
   return orbits;
 }
 
-/// rms over orbit_phases of the distance, each axis in units of the mean range of the two.
+/// The rms distance of two orbits over orbit_phases, each axis in units of their mean range.
 double distance(const Portrait& orbits) {
   const auto& [a, b] = orbits;
   const auto range_of = [](const std::vector<double>& values) {
@@ -200,7 +200,7 @@ Curve law_curve(const PeakedRate& law, const Points& points, const page::Text& t
                   title, ink);
 }
 
-/// How far Eq. 5 misses the rates, with `parameters` of it fitted.
+/// The misfit of Eq. 5 to the rates, with `parameters` of its parameters fitted.
 VarianceRatio misfit_of(const PeakedRate& law, const Points& points, int parameters) {
   double misses = 0.0, variances = 0.0;
   const auto count = static_cast<double>(points.x.size());
@@ -216,8 +216,8 @@ page::Text words_of(const PeakedRate& fit) {
          ", Δρ_max/ρ₀ = " + page::number(fit.gain) + ", R² = " + page::number(fit.r2);
 }
 
-/// nu_c of a fit of so many parameters, which is told in `words` too. A corner at the end of the
-/// data is none: its interval is open on that side.
+/// Claims nu_c of a fit with `parameters` parameters; adds the fit to `words`. A corner at an end
+/// of the data is no corner: its interval is open on that side.
 void claim_peak(const std::string& name, const PeakedRate& fit, int parameters,
                 const Points& points, page::Values& words, PaperSection& section) {
   constexpr double no_bound = 1e9;
@@ -231,7 +231,7 @@ void claim_peak(const std::string& name, const PeakedRate& fit, int parameters,
                  .law_p = misfit.p});
 }
 
-/// Beyond the maximum the paper's rate falls as 1/nu.
+/// Claims the fall of the rate beyond its maximum: the paper's rate falls as 1/nu.
 void add_falling_branch(const Groups& groups, PaperSection& section) {
   Points falling;
   for (const Group& group : groups)
@@ -249,7 +249,7 @@ void fill_motion(PaperData& data, PaperSection& section) {
   if (!runs.empty()) add_motion(runs, section);
   const Groups groups = data.groups("frequency; slowest", "frequency");
   if (groups.size() < 2) return;
-  // when the first contraction is over, at all frequencies
+  // the time when the first contraction is over, at all frequencies
   const Points times = points_of(groups, "frequency", "first_time90");
   Panel panel = frequency_panel("90 % of the first contraction  (s)");
   panel.y_min = 0.0;
@@ -284,7 +284,7 @@ void fill_forces(PaperData& data, PaperSection& section) {
                    creep = mean_over(runs, [](const auto&s) { return 1e3 * s.jammed.speed_mean; });
   const SampleMean share =
       mean_over(runs, [](const auto& s) { return s.jammed.speed_mean / s.speed_in.mean; });
-  // how f_g grows in the last tenth of the way in, over how it does in the middle: 1 for a line
+  // the slope of f_g in the last tenth of the way in over that in the middle: 1 for a line
   std::vector<double> steepness;
   for (const MotionRun& run : runs) {
     const RunFacts& facts = run.summary.facts;
@@ -309,7 +309,7 @@ void fill_forces(PaperData& data, PaperSection& section) {
   section.claim("fig4.passive", words, good_fit, found(passive));
   section.claim("fig4.end", words, PaperRange::at_least(1.0), found(end));
   section.claim("fig4.jammed", words, PaperRange::at_most(target::jammed_force), found(jam));
-  // jammed samples are chosen by their speed, at most 2 % of v_max: a part of the statement
+  // jammed samples are chosen by their speed, at most 2 % of v_max: this tests a part only
   Found rest = found(share);
   rest.is_whole = false;
   section.claim("fig4.rest", words, PaperRange::at_most(0.01), rest);
@@ -384,10 +384,10 @@ void fill_rates(PaperData& data, PaperSection& section) {
   const Groups groups = data.groups("frequency; slowest", "frequency");
   Panel panel = frequency_panel("compaction rate  *η*  (1/s)");
   page::Values words;
-  // D as the paper has it: the gain of a period at 5 Hz over rho_0
+  // D as in the paper: the gain of a period at 5 Hz over rho_0
   const Group* slow = at(groups, 5.0);
   const SampleMean gain = slow ? slow->mean("relative_gain") : SampleMean{};
-  // the window of the rate: the paper's, and one that is the same for all frequencies
+  // two windows of the rate: the paper's, and one that is the same for all frequencies
   for (const auto& [name, title, rate, ink, shape] :
        {std::tuple(std::string("own"), "paper’s window", "rate", Ink::blue, MarkShape::circle),
         {"common", "0.4–1 s", "rate_common", Ink::vermilion, MarkShape::square}}) {

@@ -31,7 +31,7 @@ struct RunColumn {
 };
 /// The columns of runs.csv after its texts.
 const RunColumn all_columns[] = {
-    // what was set
+    // the settings
     {"seed", "1", "of the grains: the sample",
      [](Run r) { return static_cast<double>(r.facts.seed); }},
     {"frequency", "Hz", "nu", [](Run r) { return r.facts.frequency; }},
@@ -56,7 +56,7 @@ const RunColumn all_columns[] = {
     {"iterations_most", "1", "allowed to the solver per step",
      [](Run r) { return r.facts.iterations_most; }},
     {"tolerance", "g h", "of the solver", [](Run r) { return r.facts.tolerance; }},
-    // what the solver did
+    // the solver
     {"iterations", "1", "mean per step", [](Run r) { return r.iterations.mean; }},
     {"error", "g h", "rms natural map, mean over the steps that count",
      [](Run r) { return r.error_counted; }},
@@ -106,7 +106,7 @@ const RunColumn all_columns[] = {
      [](Run r) { return r.roll.circulation; }},
 };
 
-/// What a table begins with.
+/// A column of text at the beginning of a table.
 struct TextColumn {
   const char* name;
   std::string RunRow::*text;
@@ -118,7 +118,7 @@ constexpr TextColumn text_columns[] = {{"name", &RunRow::name},
                                        {"solver", &RunRow::solver}};
 constexpr size_t texts = std::size(text_columns);
 
-/// Where a column stands among the numbers. Throws std::invalid_argument naming it.
+/// The place of a column among the numbers. Throws std::invalid_argument naming the column.
 size_t place_of(std::string_view column) {
   const auto* found = std::ranges::find(all_columns, column, &RunColumn::name);
   if (found == std::end(all_columns))
@@ -126,10 +126,10 @@ size_t place_of(std::string_view column) {
   return static_cast<size_t>(found - all_columns);
 }
 
-/// Measured values of what was set, from records and from files of nine digits, are the same.
+/// Rounds to six digits, in which settings from records and from files of nine digits are equal.
 double rounded(double value) { return parsed_number(printed("%.6g", value)).value_or(value); }
 
-/// One condition of a selection: column, sign, value.
+/// Returns whether a row meets one condition of a selection: column, sign, value.
 bool says(const RunRow& row, const std::string& condition) {
   const size_t place = condition.find_first_of("=!<>~");
   const std::string column = condition.substr(0, place), value = condition.substr(place + 1);
@@ -157,7 +157,7 @@ bool takes(const Selection& selection, const RunRow& row) {
 std::vector<PlannedRun> read_campaign(const CampaignSettings& settings) {
   Plan plan =
       settings.plan.empty() ? plan_of(campaign_plan(), "campaign.toml") : read_plan(settings.plan);
-  // Only those that are wanted: an override may fit no scene but theirs.
+  // Only the wanted runs: an override may fit no scene but theirs.
   if (!settings.only.empty()) plan.runs = select(plan, settings.only);
   for (PlannedRun& run : plan.runs) {
     if (!settings.scene.empty() && run.scene == "vibrated_box") run.scene = settings.scene;
@@ -207,7 +207,7 @@ std::string runs_csv(std::span<const RunRow> rows) {
   csv.end_row();
   for (const RunRow& row : rows) {
     for (const TextColumn& column : text_columns) csv.add(row.*column.text);
-    for (const double& value : row.numbers)  // first the seed: all digits
+    for (const double& value : row.numbers)  // the first is the seed: all digits
       csv.add(number_cell(value, &value == row.numbers.data() ? 17 : 9));
     csv.end_row();
   }
@@ -320,7 +320,7 @@ PooledError scatter_paired(const Groups& groups, RunMeasure measure) {
   std::set<double> seeds;
   for (const Group& group : groups)
     for (const RunRow* row : group.samples) seeds.insert((*row)["seed"]);
-  // one list for each packing: what it misses of the mean in every group that has all packings
+  // one list for each packing: its deviations from the mean of every group that has all packings
   std::map<double, std::vector<double>> misses;
   int complete = 0;
   for (const Group& group : groups) {
@@ -334,7 +334,7 @@ PooledError scatter_paired(const Groups& groups, RunMeasure measure) {
   std::vector<std::vector<double>> lists;
   for (const auto& [seed, missed] : misses) lists.push_back(missed);
   PooledError pooled = pooled_error(lists);
-  // the misses in one group add up to nothing: that takes a degree of freedom for each
+  // the deviations in one group sum to zero: that takes a degree of freedom for each
   const int freedom = (complete - 1) * (static_cast<int>(seeds.size()) - 1);
   if (freedom < 1) return {};
   pooled.deviation *= std::sqrt(static_cast<double>(pooled.degrees_of_freedom) / freedom);
@@ -406,8 +406,8 @@ Groups PaperData::groups(const Selection& selection, RunMeasure along) {
 
 Groups PaperData::settings(const Selection& selection) {
   std::vector<Group> groups;
-  std::map<std::string, size_t> known;  // where a setting's group stands
-  std::set<std::string> seen;           // equal runs of several stages are one
+  std::map<std::string, size_t> known;  // the place of a setting's group
+  std::set<std::string> seen;           // equal runs of several stages count once
   for (const RunRow* row : rows(selection)) {
     if (!seen.insert(row->key).second) continue;
     std::string setting = row->stage + row->name;

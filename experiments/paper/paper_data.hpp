@@ -1,10 +1,10 @@
 #pragma once
-// What a campaign has produced so far: one row for each run that is finished, or of which a row was
-// given, and what rows say together. Whatever is missing is counted and said, never an error.
+// The results of a campaign so far: one row for each run that is finished or whose row was given,
+// and the statistics of rows. Missing runs are counted and reported; they are never an error.
 //
-// A selection takes rows by stage and by what they say. Its groups are the values of one thing that
-// was varied, each with its samples: the seeds. Figures draw means over samples; what compares two
-// groups compares every sample with itself.
+// A selection takes rows by stage and by conditions on their values. Its groups are the values of
+// one varied quantity, each with its samples, one for each seed. Figures draw means over samples; a
+// comparison of two groups compares every sample with the same sample of the other group.
 
 #include <filesystem>
 #include <map>
@@ -22,20 +22,20 @@ namespace ballast {
 
 struct CampaignSettings {
   std::filesystem::path plan = {};  ///< empty: campaign.toml
-  std::string scene = {};           ///< instead of vibrated_box, name or path; empty: that one
-  std::vector<std::string> overrides = {};  ///< of every run, after the plan's own
-  std::string only = {};                    ///< names of the runs, as a shell's pattern; empty: all
+  std::string scene = {};           ///< replaces vibrated_box, name or path; empty: keeps it
+  std::vector<std::string> overrides = {};  ///< for every run, after the plan's own
+  std::string only = {};                    ///< shell pattern for the runs' names; empty: all
 };
 
 /// The text of campaign.toml, built into the program.
 std::string campaign_plan();
-/// Stage by stage, the most important first; equal runs of several stages have one key. Throws
-/// Error naming plan, run, key and value.
+/// The runs of a campaign stage by stage, the most important first. Equal runs of several stages
+/// have one key. Throws Error naming plan, run, key and value.
 std::vector<PlannedRun> read_campaign(const CampaignSettings& settings);
-/// The stage of a run: its name to the first of "-.".
+/// The stage of a run: its name up to the first "-" or ".".
 std::string stage_of(const PlannedRun& run);
 
-/// A number of a run by its name: a column of runs.csv, or what follows from some:
+/// The name of a number of a run: a column of runs.csv, or a number that follows from columns:
 ///   relative_gain  Delta rho_1/rho_0
 ///   grain_share    m/(m + m_w)
 ///   grains_across  cube root of the number of grains
@@ -43,42 +43,42 @@ std::string stage_of(const PlannedRun& run);
 ///   theory_ratio, aspect_prefactor          C over the theory's; C L/H
 /// SI units; NaN: not known.
 using RunMeasure = std::string_view;
-/// What stands behind a value of it: " Hz"; empty without a unit.
+/// The unit as it is written behind a value: " Hz"; empty without a unit.
 std::string unit_behind(RunMeasure measure);
 
 struct RunRow {
   std::string name, stage;  ///< of the campaign
-  std::string key;          ///< of the resolved scene: the folder of the record
+  std::string key;          ///< of the resolved scene; it names the folder of the record
   std::string record;  ///< hash of the record's steps without wall clock: equal runs, equal hash
   std::string solver;
   std::vector<double> numbers;  ///< the columns of runs.csv after these texts; NaN: not known
 
-  /// Nothing is known yet.
+  /// A row in which nothing is known yet.
   RunRow();
   explicit RunRow(const RunSummary& run);
-  /// There must be one of this name (std::invalid_argument).
+  /// Throws std::invalid_argument when there is no number of this name.
   double operator[](RunMeasure measure) const;
   double& operator[](std::string_view column);
 };
 
-/// Names, then units, then one row a run.
+/// Rows as CSV: a line of names, a line of units, then one line for each row.
 std::string runs_csv(std::span<const RunRow> rows);
-/// Reads such a table, of this or an earlier version: what a column means that is not known here is
-/// left out, and a column that is not in it is not known. Throws Error naming file, line and
-/// column where it is none.
+/// Reads such a table of this or an earlier version. Columns with unknown names are left out; the
+/// numbers of columns that the table lacks are not known. Throws Error naming file, line and column
+/// where the file is no such table.
 std::vector<RunRow> read_runs_csv(const std::filesystem::path& file);
-/// The columns and what they mean, as CSV: column, unit, description.
+/// The columns and their meaning as CSV: column, unit, description.
 std::string run_columns_csv();
 
-/// Of all columns of the steps but wall clock, to the last bit.
+/// The hash of all columns of the steps except wall clock, to the last bit.
 std::string record_hash(std::span<const StepRecord> steps);
 
-/// Rows of some stages, each with what its rows must say: "force; sizes name~wide grains>600".
-/// A number is =, ! (another), < or > (to six digits), the solver = or !, and the name holds a
-/// part.
+/// Rows of some stages, each with conditions on its rows: "force; sizes name~wide grains>600".
+/// Conditions on numbers are =, ! (unequal), < and >, to six digits; on the solver = and !; and
+/// name~part, for names that hold a part.
 using Selection = std::string;
 
-/// One value of what is varied.
+/// The runs at one value of the varied quantity.
 struct Group {
   double value = 0.0;  ///< to six digits
   std::string label;
@@ -88,76 +88,76 @@ struct Group {
   const RunRow* like(const RunRow& other) const;
   std::vector<double> values(RunMeasure measure) const;
   SampleMean mean(RunMeasure measure) const { return sample_mean(values(measure)); }
-  /// One logarithm of each sample.
+  /// The logarithm of each sample's value.
   std::vector<double> logs(RunMeasure measure) const;
   double log_mean(RunMeasure measure) const { return sample_mean(logs(measure)).mean; }
 };
 using Groups = std::vector<Group>;
 
-/// The one at a value; null: none.
+/// The group at a value; null: none.
 const Group* at(const Groups& groups, double value);
 
-/// Means over samples, `y` against the mean `x`; what is not known is left out.
+/// Means of `y` over samples against means of `x`. Groups where one is not known are left out.
 Points points_of(const Groups& groups, RunMeasure x, RunMeasure y, double x_factor = 1.0,
                  double y_factor = 1.0);
 
-/// Over the samples that both have: ln of `measure` at `to` less that at `from`.
+/// ln of `measure` at `to` less that at `from`, over the samples that both groups have.
 SampleMean log_change(const Group& from, const Group& to, RunMeasure measure);
-/// Exponent of `measure` in `along` over the groups, fitted to each sample by itself that has at
-/// least so many values, by its seed. What a packing does at all values drops out.
+/// By seed, the exponent of `measure` in `along` over the groups, fitted to each sample that has at
+/// least `fewest` values. A factor that a packing has at all values drops out.
 std::map<double, double> exponents_of_samples(const Groups& groups, RunMeasure along,
                                               RunMeasure measure, size_t fewest = 3);
 
-/// How the logarithm of a measure scatters, pooled over groups: between samples of grains; and from
-/// run to run of one packing, where what a packing has in common in all groups is taken out (of the
-/// groups that have every packing).
+/// The scatter of the logarithm of a measure, pooled over groups. scatter_between: between samples
+/// of grains. scatter_paired: from run to run of one packing, without the offset that the packing
+/// has in all groups (of the groups that have every packing).
 PooledError scatter_between(const Groups& groups, RunMeasure measure);
 PooledError scatter_paired(const Groups& groups, RunMeasure measure);
 
 class PaperData {
  public:
-  /// `rows`: of runs whose records are elsewhere (a report's runs.csv). Where a run is there its
-  /// own record is measured. Rows of no run of this campaign are taken as they are.
+  /// `rows` belong to runs whose records are elsewhere (a report's runs.csv). A run whose record is
+  /// in `results` is measured from it. Rows of no run of this campaign are taken as they are.
   PaperData(std::vector<PlannedRun> campaign, std::filesystem::path results,
             std::vector<RunRow> rows = {});
 
   const std::vector<PlannedRun>& campaign() const { return campaign_; }
 
-  /// Its record is there, and finished.
+  /// Returns whether the record of the run is there, and finished.
   bool has(const PlannedRun& run) const { return finished_.contains(run.key); }
-  /// The same, or its row was given.
+  /// Returns whether the run has such a record, or its row was given.
   bool knows(const PlannedRun& run) const { return has(run) || given_.contains(run.key); }
   std::filesystem::path folder(const std::string& key) const { return results_ / "runs" / key; }
 
-  /// Every run that is known, measured, in the campaign's order; then the rows of no run of it.
-  /// Measured once, on the first call. Throws Error where a record cannot be read.
+  /// The rows of all known runs in the campaign's order, then the rows of no run of it. Records are
+  /// measured once, on the first call. Throws Error where a record cannot be read.
   const std::vector<RunRow>& rows();
   std::vector<const RunRow*> rows(const Selection& selection);
-  /// By growing value of `along`; one row for each sample: the first.
+  /// The groups by growing value of `along`. Each sample has one row, the first that is found.
   Groups groups(const Selection& selection, RunMeasure along);
-  /// A group for each setting, whatever was varied: rows whose names differ in the seed alone. A
-  /// run that several stages share belongs to the first.
+  /// A group for each setting, whatever was varied: its rows have names that differ in the seed
+  /// alone. A run that several stages share belongs to the first.
   Groups settings(const Selection& selection);
 
-  /// The records of a stage's finished runs at a frequency (any, where NaN).
+  /// The records of a stage's finished runs at a frequency (NaN: at any).
   std::vector<RunData> records(const std::string& stage, double frequency = not_known);
-  /// "PARTIAL: 6 of 30 runs of frequency.": empty when everything planned is there.
+  /// "PARTIAL: 6 of 30 runs of frequency."; empty when all planned runs are known.
   std::string missing(const std::string& stage) const;
 
   size_t planned() const { return keys_.size(); }  ///< different runs of the campaign
   size_t finished() const { return finished_.size(); }
-  size_t known_by_row() const;                        ///< runs of which a row alone is known
+  size_t known_by_row() const;                        ///< runs that are known by a row alone
   size_t foreign() const { return foreign_.size(); }  ///< rows of no run of this campaign
-  /// Runs made here whose row was given too: how many, and of how many both have the same hash.
+  /// The number of runs made here whose row was given too, and how many of them have equal hashes.
   std::pair<int, int> repeats();
-  /// What could not be read of the records, one line each. After rows().
+  /// The parts of records that could not be read, one line each. Filled by rows().
   const std::vector<std::string>& notices() const { return notices_; }
 
  private:
   RunRow measured(const std::string& key);
 
   std::vector<PlannedRun> campaign_;
-  std::set<std::string> keys_;  ///< of its runs
+  std::set<std::string> keys_;  ///< of the campaign's runs
   std::filesystem::path results_;
   std::map<std::string, RunRow> finished_;  ///< by key; measured by rows()
   std::map<std::string, RunRow> given_;     ///< by key

@@ -42,7 +42,7 @@ std::string listed(const std::map<std::string, int>& counts) {
   return text.empty() ? "none" : text;
 }
 
-/// What the finished runs were made by: programs, machines, steps, wall clock.
+/// The origin of the finished runs: programs, machines, steps, wall clock.
 std::vector<page::Text> origin_of(PaperData& data) {
   std::map<std::string, int> commits, machines;
   std::set<std::string> seen;
@@ -331,14 +331,14 @@ page::Page paper_page(const std::vector<PaperSection>& sections,
 void write_paper_report(PaperData& data, const std::vector<PaperSection>& sections,
                         const fs::path& folder) {
   create_folder(folder / "data");
-  write_whole_file(folder / "data" / "runs_columns.csv", run_columns_csv());  // the folder is ours
+  write_whole_file(folder / "data" / "runs_columns.csv", run_columns_csv());  // marks our folder
   for (const PaperSection& section : sections)
     for (const page::Picture& figure : section.figures)
       write_whole_file(folder / "data" / (figure.plot.name + ".csv"), figure_csv(figure.plot));
   write_whole_file(folder / "data" / "runs.csv", runs_csv(data.rows()));
   page::Page page = paper_page(sections, origin_of(data));
   page.answers = {.are_given = true, .with_curves = true};
-  // the data stand beside as CSV, and README.md shows the files themselves
+  // the data are in CSV files beside, and README.md shows the SVG files themselves
   page::draw_pictures(page, folder, {.is_file_shown = true});
   write_html_file(folder / "paper.html", page);
   page.lede.push_back(page::words("paper.made_by"));

@@ -1,7 +1,7 @@
 #pragma once
 // The report of a reproduction: README.md, paper.html (opens offline), figures/*.svg, data/*.csv.
-// Its sections: what each is made of, which stages of the campaign it needs, and what makes it. The
-// words stand in texts/*.md under its name.
+// Defines its sections: the content of each, the stages of the campaign that it needs, and the
+// function that fills it. The words of a section are in texts/*.md under its name.
 
 #include <cmath>
 #include <iosfwd>
@@ -15,15 +15,15 @@
 
 namespace ballast {
 
-// One rule that says whether Ballast and the paper agree. It is applied to every row of the
-// report's first table; words("paper.rule") say it.
+// One rule decides whether Ballast and the paper agree. It is applied to every row of the report's
+// first table; words("paper.rule") state it.
 //
-// The paper's words are a range of values, Ballast's a value with its 95 % interval.
+// The paper's statement is a range of values, Ballast's result a value with its 95 % interval.
 //   agrees    the value lies in the range, its interval within three times the range, the law whose
 //             parameter it is holds within the samples' scatter (p >= 0.01), and the whole of the
 //             paper's statement was tested
-//   partly    the value lies in the range, but one of the other three is missing; or it lies within
-//             three times the range
+//   partly    the value lies in the range, but some of the other three are missing; or it lies
+//             within three times the range
 //   DIFFERS   the value lies farther off, and its interval does not reach the range
 //   reported  there is no interval, or it reaches the range although the value lies far off: not
 //             decided
@@ -31,7 +31,7 @@ namespace ballast {
 enum class Agreement { agrees, partly, differs, reported };
 const char* word_of(Agreement agreement);
 
-/// What the paper's words allow. One side may be infinite; three times such a range is the range.
+/// The values that the paper allows. One side may be infinite; such a range is never widened.
 struct PaperRange {
   double low, high;
 
@@ -48,17 +48,17 @@ struct PaperRange {
   PaperRange widened() const;  ///< three times as wide, about the same middle
 };
 
-/// What Ballast found.
+/// A result of Ballast.
 struct Found {
   double value = not_known, low = not_known, high = not_known;  ///< with its 95 % interval
-  double law_p = 1.0;    ///< of the misfit of the law whose parameter it is
+  double law_p = 1.0;    ///< p of the misfit of the law whose parameter it is
   bool is_whole = true;  ///< false: a part of the paper's statement, or samples chosen by it
 
   static Found about(double value, double half_width, double law_p = 1.0) {
     return {value, value - half_width, value + half_width, law_p};
   }
 };
-/// Student's interval; of one sample there is none.
+/// The result with Student's interval; one sample has none.
 inline Found found(const SampleMean& mean) { return Found::about(mean.mean, mean.half_width()); }
 inline Found found(const PowerFit& fit, double law_p) {
   return Found::about(fit.exponent, fit.half_width, law_p);
@@ -68,64 +68,64 @@ Agreement agreement_of(const PaperRange& paper, const Found& found);
 
 /// "−2.1 … −1.9", "≤ 0.26"
 page::Text words_of(const PaperRange& range);
-/// "−1.70 [−1.74, −1.66]", and what keeps it from agreeing besides its value.
+/// "−1.70 [−1.74, −1.66]", and the reasons besides its value why it does not agree.
 page::Text words_of(const Found& found);
 
 struct PaperSection {
   std::string id = {};  ///< "fig9"
   page::Text heading = {};
-  std::vector<page::Text> notes = {};  ///< what is missing, loudly
+  std::vector<page::Text> notes = {};  ///< prominent notices of missing data
   std::vector<page::Text> text = {};   ///< paragraphs
   std::vector<page::Picture> figures = {};
   std::vector<page::Table> tables = {};
-  /// Rows of the report's first tables: words("paper.agreement"), and words("paper.beyond") for
-  /// what is beyond the paper, where there is nothing to agree with.
+  /// Rows of the report's first tables: claims of words("paper.agreement"), findings of
+  /// words("paper.beyond"), which go beyond the paper: there is nothing to agree with.
   std::vector<std::vector<page::Text>> claims = {}, findings = {};
-  /// Every value of its figures, claims and findings by "name.key", of the second finding of one
-  /// name "name:2.key": what the article cites.
+  /// The values that the article cites: every value of the section's figures, claims and findings
+  /// by "name.key", and by "name:2.key" those of the second finding of one name.
   page::Values numbers = {};
 
-  /// A figure with its captions: words(name.paper) and words(name.found). Unless `plot` has one,
-  /// its title is words(name.title); its files are called `name`, with two digits for "fig9".
+  /// Adds a figure with its captions: words(name.paper) and words(name.found). Unless `plot` has a
+  /// title it is words(name.title); its files are called `name`, with two digits for "fig9".
   void draw(const std::string& name, Figure plot, const page::Values& values = {});
-  /// A claim, judged by the one rule. words(name) is "place || what the paper says || what was
-  /// measured".
+  /// Adds a claim, judged by the rule above. words(name) is "place || what the paper says || what
+  /// was measured".
   void claim(const std::string& name, const page::Values& values, const PaperRange& range,
              const Found& found);
-  /// A finding. words(name) is "what || what was measured".
+  /// Adds a finding. words(name) is "what || what was measured".
   void report(const std::string& name, const page::Values& values);
   void keep(const std::string& name, const page::Values& values);
-  /// A table, unless it has no rows.
+  /// Adds a table, unless it has no rows.
   void add(page::Table table);
 };
 
-/// "1.23 ± 0.04"
+/// "1.230 ± 0.040"
 page::Text words_of(const SampleMean& mean, double factor = 1.0);
-/// Text of a fitted exponent: "−1.93 [−2.05, −1.81] (R² 0.995)".
+/// Text of a fitted exponent: "−1.93 [−2.05, −1.81] (R² 0.995, 5 points)".
 page::Text words_of(const PowerFit& fit);
 /// "0.03 [0.02, 0.04]": with its 95 % interval.
 page::Text words_of(const Proportion& fit);
-/// "χ²/dof 3.2, p 0.004"; what a reader has to know about it: words("misfit").
+/// "χ²/dof 3.2, p 0.004"; words("misfit") explain it to the reader.
 page::Text words_of(const VarianceRatio& found, const char* name = "χ²/dof");
 /// "0.004", "< 1e-4"
 page::Text words_of_p(double p);
-/// "−1.00 [−1.2, −0.8]": the 95 % interval by Student's t; without one where there is one sample.
+/// "−1.00 [−1.2, −0.8]": with the 95 % interval by Student's t; one sample has none.
 page::Text words_with_interval(const SampleMean& mean);
-/// Of a difference of logarithms: "+3.1 % [0.2, 6.1]"; one sample has no interval.
+/// A difference of logarithms in percent: "+3.1 % [0.2, 6.1]"; one sample has no interval.
 page::Text words_of_change(const SampleMean& change);
 
 /// A measure as figures and tables show it.
 struct LabelledMeasure {
   RunMeasure measure;
   const char* label;  ///< with its unit, in the notation of page::marked()
-  double factor;      ///< from SI
+  double factor;      ///< from SI units to those shown
 };
 
-/// Points with bars.
+/// Points with error bars.
 Curve curve_of(const Points& points, const page::Text& title, Ink ink,
                MarkShape shape = MarkShape::circle);
 
-/// A function drawn between two x, evenly in log x where `is_log`.
+/// The range of x in which a function is drawn, evenly in log x where `is_log`.
 struct Drawn {
   double low, high;
   bool is_log;
@@ -147,36 +147,36 @@ Curve curve_of(const Function& function, const Drawn& range, const page::Text& t
 /// The figure's data: panel, curve, x, y, y_error, y_low as CSV.
 std::string figure_csv(const Figure& figure);
 
-/// One section of the report: the target of `ballast paper` that makes it. Its heading is
-/// words(name.heading), its first paragraph words(name.intro). `fill` adds to what its rows in the
-/// tables of laws and cases give; null: nothing.
+/// One section of the report. `name` is the target of `ballast paper` that makes it. Its heading is
+/// words(name.heading), its first paragraph words(name.intro). `fill` adds to the figures and
+/// tables that its rows in the tables of laws and cases give; null: nothing.
 struct ReportSection {
   const char* name;  ///< "fig9"
   std::vector<const char*> stages;
   void (*fill)(PaperData& data, PaperSection& section) = nullptr;
 };
-/// The first result, then in the paper's order. A new section is its row in sections.cpp, its words
-/// in texts/, and a row of a table (laws.cpp, cases.cpp) or a function of its own.
+/// All sections: the main result first, then in the paper's order. A new one needs a row in
+/// sections.cpp, words in texts/, and a row of a table (laws.cpp, cases.cpp) or its own function.
 std::span<const ReportSection> paper_sections();
 
 /// Names that `ballast paper` takes: those of the sections, of the stages, and "all".
 std::vector<std::string> paper_targets(const std::vector<PlannedRun>& campaign);
-/// What a target needs as plans, one for each stage: to be run in this order. Runs of which a row
-/// alone is known are left out. Throws std::invalid_argument naming the target and what there is.
+/// The plans that a target needs, one for each stage, to be run in this order. Runs that are known
+/// by a row alone are left out. Throws std::invalid_argument naming the target and the valid ones.
 std::vector<Plan> stages_of(const PaperData& data, const std::string& target);
-/// The sections of a target; of a stage's, all that draw it.
+/// The sections of a target; if it is a stage, all sections that draw the stage.
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target);
 
-/// Figures and tables that are rows of a table: power laws (laws.cpp), then cases (cases.cpp).
+/// Add the figures and tables that are rows of a table: power laws (laws.cpp), cases (cases.cpp).
 void add_laws(PaperData& data, PaperSection& section);
 void add_cases(PaperData& data, PaperSection& section);
 
-// what fills sections besides
-void fill_curve(PaperData& data, PaperSection& section);   ///< all that is varied on one curve
+// the functions that fill sections beside these tables
+void fill_curve(PaperData& data, PaperSection& section);   ///< all varied runs on one curve
 void fill_theory(PaperData& data, PaperSection& section);  ///< exponents of F and of the mass
 void fill_rates(PaperData& data, PaperSection& section);   ///< Fig. 13 (Eqs. 4 and 5)
 void fill_replicas(PaperData& data, PaperSection& section);
-void fill_errors(PaperData& data, PaperSection& section);      ///< of all runs
+void fill_errors(PaperData& data, PaperSection& section);      ///< errors of all runs
 void fill_reading(PaperData& data, PaperSection& section);     ///< both scenes beside the paper
 void fill_compaction(PaperData& data, PaperSection& section);  ///< the rate by three windows
 void fill_motion(PaperData& data, PaperSection& section);      ///< Fig. 3: x(t), first contraction
@@ -187,13 +187,13 @@ void fill_chains(PaperData& data, PaperSection& section);      ///< Fig. 7: chai
 void fill_portraits(PaperData& data, PaperSection& section);   ///< Fig. 8: phase portraits
 void fill_density(PaperData& data, PaperSection& section);     ///< Fig. 12: solid fraction
 
-/// Writes the report of these sections into `folder`, each file beside and renamed. What gnuplot
-/// cannot draw becomes a notice. Throws Error.
+/// Writes the report of these sections into `folder`, each file whole or not at all. A figure that
+/// gnuplot cannot draw becomes a notice. Throws Error.
 void write_paper_report(PaperData& data, const std::vector<PaperSection>& sections,
                         const std::filesystem::path& folder);
 
-/// The page that both files are written from; its figures are not drawn yet. `origin`: what the
-/// runs were made by, one sentence each.
+/// The page from which paper.html and README.md are written; its figures are not drawn yet.
+/// `origin` are sentences about the programs and machines that made the runs.
 page::Page paper_page(const std::vector<PaperSection>& sections,
                       const std::vector<page::Text>& origin);
 
@@ -201,25 +201,25 @@ page::Page paper_page(const std::vector<PaperSection>& sections,
 // Markdown. {{name.key}} in it stands for a number of the report, the value `key` of its figure,
 // claim or finding `name`; figures/NAME.svg stands for one of the report's figures.
 
-/// `prose` with every number put in. Throws Error naming the first one that there is not.
+/// `prose` with every number put in. Throws Error naming the first number that is missing.
 std::string article_of(std::string_view prose, const page::Values& numbers);
 
 /// The article with the numbers of the whole report.
 std::string article_of(const std::vector<PaperSection>& sections);
 
 /// Writes article.md and the figures that it shows into `folder`, and by Pandoc and XeLaTeX
-/// article.html and article.pdf. Says on `notes` what is missing for them. Throws Error.
+/// article.html and article.pdf. Writes to `notes` what is missing for them. Throws Error.
 ExitCode write_article(PaperData& data, const std::filesystem::path& folder, std::ostream& notes);
 
 /// The campaign as a dataset that can be cited: rows, plan, scenes, packings' checksums, a reader.
 struct ArchiveOrder {
   std::filesystem::path plan = {};  ///< the campaign's; empty: campaign.toml
-  std::filesystem::path packings;   ///< where packings are kept: checksums of those that are there
+  std::filesystem::path packings;   ///< folder of the packings; those in it get checksums
   std::filesystem::path output;
 };
 
-/// Writes the folder `<output>/ballast-paper` and packs it as `<output>/ballast-paper.tar.gz`, the
-/// same bytes from the same rows. Returns the packed file. Throws Error.
+/// Writes the folder `<output>/ballast-paper` and packs it as `<output>/ballast-paper.tar.gz`; the
+/// same rows give the same bytes. Returns the packed file. Throws Error.
 std::filesystem::path write_archive(PaperData& data, const ArchiveOrder& order);
 
 }  // namespace ballast

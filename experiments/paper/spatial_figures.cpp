@@ -1,7 +1,7 @@
-// Figs. 6 and 7: fields in a section along the middle of the box. Velocities of the grains while
-// the wall moves in, and what is left of the motion over whole periods, where a roll would be seen;
-// normal forces, passive and active, the principal directions of the stress, and how the forces are
-// distributed.
+// Figs. 6 and 7: fields in a section along the middle of the box. Fig. 6 shows the velocities of
+// the grains while the wall moves in, and the net motion over whole periods, in which a roll would
+// be seen. Fig. 7 shows the normal forces, passive and active, and the principal directions of
+// the stress.
 
 #include <array>
 #include <cmath>
@@ -14,10 +14,10 @@ namespace {
 
 /// Grains whose centres are this near the middle plane are drawn [m]: two layers.
 constexpr double half_section_of_grains = 0.05;
-constexpr double rms_arrow = 0.025;  // how long the rms velocity is drawn [m]
+constexpr double rms_arrow = 0.025;  // length of the arrow of the rms velocity [m]
 
-/// Arrows as lines: shaft and two barbs, NaN between them. Lengths in the plot's units (axes of
-/// equal scale).
+/// Adds an arrow as lines: shaft and two barbs, NaN between them. Lengths are in the plot's units
+/// (axes of equal scale).
 void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
   const double length = std::hypot(dx, dz);
   if (!(length > 0.0)) return;
@@ -34,8 +34,8 @@ void add_arrow(Curve& curve, double x, double z, double dx, double dz) {
   curve.add(not_known, not_known);
 }
 
-/// Arrows in the box around them, on axes of equal scale; one of length `rms` is drawn rms_arrow
-/// long.
+/// The figure of arrows in the box around them, on axes of equal scale. An arrow of length `rms` is
+/// drawn rms_arrow long.
 Figure arrows_in_box(const std::vector<Displacement>& moves, double rms, const XzRectangle& box) {
   Curve arrows{.width = 1.2};
   const double scale = rms > 0.0 ? rms_arrow / rms : 0.0;
@@ -47,7 +47,7 @@ Figure arrows_in_box(const std::vector<Displacement>& moves, double rms, const X
                     .ink = Ink::black};
   const double aspect = (box.z_hi + 2.0 * margin) / (box.x_hi - box.x_lo + 2.0 * margin);
   return {.width = 800,
-          .height = static_cast<int>(78.0 + 680.0 * aspect),  // margins of plot_layout
+          .height = static_cast<int>(78.0 + 680.0 * aspect),  // margins of the plot
           .panels = {{.x_label = page::marked("*x*  (m): the driven wall is on the right"),
                       .y_label = page::marked("*z*  (m)"),
                       .y_min = -margin,
@@ -57,7 +57,7 @@ Figure arrows_in_box(const std::vector<Displacement>& moves, double rms, const X
                       .curves = {walls, std::move(arrows)}}}};
 }
 
-/// The velocities of the grains of the section. `rms` of them [m/s].
+/// The figure of the grains' velocities in the section. Sets `rms` to their rms [m/s].
 Figure velocity_field(const StoredState& state, double& rms) {
   const MotionState& motion = state.at.state;
   std::vector<Displacement> section;
@@ -71,7 +71,7 @@ Figure velocity_field(const StoredState& state, double& rms) {
   return arrows_in_box(section, rms, state.box());
 }
 
-/// The mean displacement of a period on a grid: a roll would close. `rms` of the cells [m].
+/// The mean displacement of a period on a grid, where a roll would close. Sets its `rms` [m].
 Figure period_field(const MotionRun& run, double& rms) {
   const RunFacts& facts = run.summary.facts;
   const XzRectangle box{0.0, facts.length, 0.0, facts.height};
@@ -98,7 +98,7 @@ struct Chains {
     double force;  ///< normal [N]
   };
   std::vector<Segment> segments = {};
-  double mean = 0.0;  ///< normal force of all contacts of the state [N]
+  double mean = 0.0;  ///< mean normal force of all contacts of the state [N]
   XzRectangle box = {};
 };
 
@@ -114,8 +114,8 @@ Chains chains_of(const StoredState& state) {
   return chains;
 }
 
-/// Thickness in eight classes of `width` newtons, the same in all panels. Three of them stand in
-/// the key.
+/// The panel of chains, with eight classes of thickness of `width` newtons each, the same in all
+/// panels. The key, if `has_key`, names three of them.
 Panel panel_of(const Chains& chains, double width, const std::string& title, bool has_key) {
   // one curve for each thickness: gnuplot draws a curve in one width
   std::array<Curve, classes> curves;
@@ -157,16 +157,16 @@ constexpr std::pair<WallPhase, const char*> phases[] = {
     {WallPhase::passive, "passive"}, {WallPhase::jammed, "jammed"}, {WallPhase::active, "active"}};
 constexpr size_t passive = 0, jammed = 1, active = 2;
 
-/// "Nearly" horizontal or vertical [degrees].
+/// The largest deviation from horizontal or vertical that is "nearly" so [degrees].
 constexpr double nearly = 20.0;
 
 }  // namespace
 
 void fill_velocities(PaperData& data, PaperSection& section) {
   const std::vector<MotionRun> runs = read_motion(data);
-  // of the first sample the state with the fastest inward wall is drawn
+  // the state with the fastest inward wall of the first sample is drawn
   Figure field;
-  double wall = 0.0, speed = 0.0;  // of the wall, inward; of the grains, rms [m/s]
+  double wall = 0.0, speed = 0.0;  // wall speed, inward; rms of the grains [m/s]
   if (!runs.empty())
     for_each_state(runs.front(), [&](const StoredState& state) {
       if (state.phase != WallPhase::passive || !(-state.wall_speed > wall)) return;
@@ -177,8 +177,8 @@ void fill_velocities(PaperData& data, PaperSection& section) {
     section.notes.push_back("PARTIAL: no stored state in the passive phase.");
     return;
   }
-  // Seen from the other side every roll turns round, and the text does not say from which side the
-  // paper looks: a roll of either sense will do.
+  // Seen from the other side a roll has the opposite sense, and the text does not say from which
+  // side the paper looks: a roll of either sense counts.
   std::vector<double> round;
   double closed = 0.0;
   for (const RunRow* row : data.rows("motion")) {
@@ -211,13 +211,13 @@ void fill_chains(PaperData& data, PaperSection& section) {
   std::array<double, 3> fastest{};
   int states = 0;
   for (const MotionRun& run : runs) {
-    std::array<Mat3, 3> stress;  // of a run's states together
+    std::array<Mat3, 3> stress;  // sum over the run's states
     stress.fill(Mat3::Zero());
     states += for_each_state(run, [&](const StoredState& state) {
       for (size_t k = 0; k < 3; ++k) {
         if (state.phase != phases[k].first) continue;
         stress[k] += state.stress();
-        // of the first sample the states with the fastest wall are drawn
+        // the states with the fastest wall of the first sample are drawn
         const double speed = std::abs(state.wall_speed);
         if (k == jammed || &run != &runs.front() || speed <= fastest[k]) continue;
         fastest[k] = speed;

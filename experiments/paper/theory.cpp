@@ -1,5 +1,5 @@
-// What C goes with: fits of its logarithm over settings that differ in anything, and C beside the
-// theory without a free parameter.
+// The dependence of C: fits of its logarithm over settings that differ in any quantity, and C
+// beside the theory without a free parameter.
 
 #include <algorithm>
 #include <map>
@@ -10,15 +10,15 @@
 namespace ballast {
 namespace {
 
-/// Settings of one kind of grains; `loads`: what those of Fig. 10 must say besides.
+/// Selects settings of one kind of grains; `loads` is a further condition on those of Fig. 10.
 Selection one_kind_of_grains(const std::string& loads) {
   return "frequency; slowest; force " + loads + "; gravity; mass; box; loads largest_size>0.04";
 }
 
-/// ln C of settings against logarithms of what was measured or set, all errors the pooled one.
+/// Fits of ln C of settings to logarithms of measured or set quantities, with the pooled error.
 class LogFits {
  public:
-  /// Settings in which C or a part of `needed` is not known are left out.
+  /// Settings in which C or one of `needed` is not known are left out.
   LogFits(Groups settings, std::vector<RunMeasure> needed) : settings_(std::move(settings)) {
     needed.push_back("prefactor");
     std::erase_if(settings_, [&](const Group& group) {
@@ -39,7 +39,7 @@ class LogFits {
     return values;
   }
 
-  /// On a constant (value 0) and these columns (values 1, 2 ...).
+  /// Fits ln C by a constant (value 0) and these columns (values 1, 2 ...).
   WeightedFit fit(const std::vector<Eigen::VectorXd>& columns) const {
     const auto count = static_cast<Eigen::Index>(size());
     Eigen::MatrixXd design = Eigen::MatrixXd::Ones(count, 1 + std::ssize(columns));
@@ -63,14 +63,14 @@ class LogFits {
   PooledError error_;
 };
 
-/// What the theory has, F/(m g) and the ratio of masses, and `more`.
+/// The columns of the theory's variables, F/(m g) and the ratio of masses, and of `more`.
 std::vector<Eigen::VectorXd> theory_and(RunMeasure more, const LogFits& all) {
   const Eigen::VectorXd force = all.log("push_over_weight");
   return {force, all.log("prefactor_theory") - 2.0 * force, all.log(more)};
 }
 
-/// Whether the load at which a jam gives way tells what the theory's factor goes with: over all
-/// settings of which it is known.
+/// Reports whether the theory's factor depends on the load at which a jam gives way, over all
+/// settings in which this load is known.
 void report_start(PaperData& data, PaperSection& section) {
   const LogFits all(data.settings("slowest; deposits; loads; shapes; sizes; reading; preparation"),
                     {"prefactor_theory", "yield_over_push"});
@@ -82,10 +82,10 @@ void report_start(PaperData& data, PaperSection& section) {
                                   {"with_x", all.misfit(all.fit(theory_and("eq3", all)))}});
 }
 
-/// By how much C is more than the theory's, frequency by frequency, in every deposit that was
+/// Reports the factor of C over the theory's C, frequency by frequency, in every deposit that was
 /// driven.
 void report_factors(PaperData& data, PaperSection& section) {
-  // by frequency: one for each deposit
+  // by frequency: one value for each deposit
   std::map<double, std::vector<double>> factors, starts, over_push;
   for (const Group& group : data.settings("preparation")) {
     const double frequency = (*group.samples.front())["frequency"];

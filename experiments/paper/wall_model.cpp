@@ -9,8 +9,8 @@
 namespace ballast {
 namespace {
 
-/// Where the wall stands in its cycle.
-/// jammed_before -> out -> turning -> in -> jammed_after; what turns may also go out again.
+/// The phases of the wall's cycle:
+/// jammed_before -> out -> turning -> in -> jammed_after; a turning wall may also go out again.
 enum class ModelPhase { jammed_before, out, turning, in, jammed_after };
 
 struct Moving {
@@ -33,10 +33,10 @@ Moving advanced(const WallModel& model, ModelPhase phase, const Moving& from, do
   return {from.x + 0.5 * dt * (from.v + guess.v), from.v + 0.5 * dt * (a + b)};
 }
 
-/// A wall at rest leaves when the load lets it, or is pushed in.
+/// The next phase of a wall at rest: it goes out when the load lets it, or is pushed in.
 ModelPhase released(const WallModel& model, ModelPhase phase, double x, double load) {
-  // At rest the packing bears the load as long as it need not push out with more than active(x),
-  // nor give way inwards to more than passive(x).
+  // The packing bears the load at rest between active(x), below which it pushes the wall out, and
+  // passive(x), above which it gives way inwards.
   const bool can_go_out = load < model.active.at(x);
   if (phase == ModelPhase::jammed_before) return can_go_out ? ModelPhase::out : phase;
   if (phase == ModelPhase::jammed_after) return phase;
@@ -44,8 +44,8 @@ ModelPhase released(const WallModel& model, ModelPhase phase, double x, double l
   return can_go_out ? ModelPhase::out : ModelPhase::turning;
 }
 
-/// The last period: x from the jamming position against time, and f_g smoothed against v; the
-/// simulation's and the model's. Axes in s, mm, mm/s, kN or N.
+/// The last period of the simulation and the model: x from the jamming position against time, and
+/// f_g smoothed against v. Axes in s, mm, mm/s, kN or N.
 Figure draw(const MotionRun& run, const ModelMotion& model) {
   const ForceUnit unit = force_unit(run.summary.facts.f_max);
   const WallPeriod& period = run.summary.wall.periods.back();
@@ -58,7 +58,7 @@ Figure draw(const MotionRun& run, const ModelMotion& model) {
     loop.add(1e3 * run.summary.wall.velocity[k], unit.factor * run.summary.wall.force[k]);
   }
   for (const double at : model.x) model_x.push_back(1e3 * at);
-  // every twentieth of the model's many steps draws the same line
+  // every twentieth of the model's many steps suffices for the same line
   for (size_t k = 0; k < model.v.size(); k += 20)
     model_loop.add(1e3 * model.v[k], unit.factor * model.force[k]);
   Curve motion = line_of(model.time, model_x, "model", Ink::black, 2.0);
@@ -81,7 +81,7 @@ ModelMotion integrate(const WallModel& model, int parts) {
   Moving wall;
   for (int k = 0; k <= parts; ++k) {
     const double t = k * dt, load = model.load.at(t);
-    // at rest the load decides whether it leaves, and which way
+    // at rest the load decides whether the wall leaves, and which way
     const bool rests = phase != ModelPhase::out && phase != ModelPhase::in;
     if (rests) phase = released(model, phase, wall.x, load);
     const bool moves = phase == ModelPhase::out || phase == ModelPhase::in;
@@ -92,8 +92,8 @@ ModelMotion integrate(const WallModel& model, int parts) {
     motion.rise = std::max(motion.rise, wall.x);
     motion.speed_in = std::max(motion.speed_in, -wall.v);
     if (!moves) continue;
-    // one step on; where the velocity changes its sign the wall stops, and where it comes back to
-    // its jamming position it stays
+    // one step on: the wall stops where its velocity changes sign, and stays where it comes back to
+    // its jamming position
     wall = advanced(model, phase, wall, t, dt);
     if ((phase == ModelPhase::out && wall.v <= 0.0) || (phase == ModelPhase::in && wall.v >= 0.0)) {
       phase = ModelPhase::turning;

@@ -19,16 +19,16 @@ struct WallModel {
   HarmonicLoad load;
 };
 
-/// One period from the load's falling mean, at which the wall is jammed at x = 0.
+/// One period, which begins where the falling load has its mean; the wall is then jammed at x = 0.
 struct ModelMotion {
   std::vector<double> time, x, v, force;  ///< [s], [m] outward, [m/s], f_g [N]
   double rise = 0.0;                      ///< Delta x_max [m]
   double speed_in = 0.0;                  ///< v_max [m/s]
 };
 
-/// m_w dv/dt = f_g - f(t) by Heun's rule, `parts` steps a period: out while f_g = active(x), in
-/// while f_g = passive; at rest while f lies between the two; jammed (f_g = f) where it started or
-/// came back to. Begins jammed.
+/// Integrates m_w dv/dt = f_g - f(t) by Heun's rule, `parts` steps a period. f_g is active(x) while
+/// the wall moves out, and passive while it moves in. The wall rests while f lies between the two.
+/// It is jammed (f_g = f) at the beginning, and where it comes back to its jamming position.
 ModelMotion integrate(const WallModel& model, int parts = 20000);
 
 }  // namespace ballast

@@ -41,18 +41,18 @@ std::vector<PlannedRun> select(const Plan& plan, const std::string& pattern) {
   return runs;
 }
 
-// A plan's file: runs one by one, and grids, which are all combinations of lists of values. See
+// A plan's file has single runs, and grids, which are all combinations of lists of values. See
 // docs/manual/plans.md.
 
 namespace {
 
-// What a plan may grow to: every run is resolved when the plan is read.
+// Limits of a plan: every run is resolved when the plan is read.
 constexpr size_t most_runs = 10'000;
 constexpr size_t most_text = 32 << 20;  // bytes of all names and overrides
 
-/// What plan, run and grid may say of the scene, as a run; the inner one adds to the outer one.
+/// Reads the scene and overrides of a plan, run or grid; the inner one adds to the outer `base`.
 PlannedRun read_base(TomlTable& table, const fs::path& file, PlannedRun base) {
-  // a scene's file is looked for where the plan is; a name stays one
+  // the path of a scene's file is relative to the plan's; the name of a scene stays a name
   const fs::path scene = table.text("scene", "");
   const bool is_path = scene.has_parent_path() || scene.extension() == ".toml";
   if (!scene.empty())
@@ -61,7 +61,7 @@ PlannedRun read_base(TomlTable& table, const fs::path& file, PlannedRun base) {
   return base;
 }
 
-/// One key with its values; each as the text of an override.
+/// One key with its values, each as the text of an override.
 struct Axis {
   std::string key;
   std::vector<std::string> values;
@@ -83,7 +83,7 @@ void collect_axes(const toml::table& table, const std::string& prefix, std::vect
   }
 }
 
-/// The axes of a sub-table that need not be there; its keys are the scene's, none of ours.
+/// The axes of a sub-table, which may be missing. Its keys are those of the scene.
 std::vector<Axis> read_axes(TomlTable& table, const char* key) {
   std::vector<Axis> axes;
   collect_axes(table.section(key).as_it_stands(), "", axes);
@@ -95,7 +95,7 @@ std::vector<Axis> read_axes(TomlTable& table, const char* key) {
   return axes;
 }
 
-/// 1 and 1.0 are the same value.
+/// Returns whether `value` is among `values`; 1 and 1.0 are the same value.
 bool contains(const std::vector<std::string>& values, const std::string& value) {
   const auto number = parsed_number(value);
   return std::ranges::any_of(values, [&](const std::string& other) {
@@ -104,7 +104,7 @@ bool contains(const std::vector<std::string>& values, const std::string& value) 
   });
 }
 
-/// Overrides for those members of a grid whose values are among these.
+/// Overrides for the members of a grid whose values are among those of `when`.
 struct Where {
   std::vector<Axis> when;
   std::vector<std::string> set;
@@ -120,7 +120,7 @@ Where read_where(TomlTable& table, const std::vector<Axis>& axes) {
   Where where{read_axes(table, "when"), table.texts("set")};
   if (where.when.empty())
     table.fail("when", "no condition, expected when = { \"a varied key\" = its values }");
-  // A condition that no member can meet is a slip of the pen.
+  // A condition that no member can meet is a mistake.
   for (const Axis& condition : where.when) {
     const auto axis = std::find_if(axes.begin(), axes.end(),
                                    [&](const Axis& a) { return a.key == condition.key; });
@@ -132,7 +132,7 @@ Where read_where(TomlTable& table, const std::vector<Axis>& axes) {
   return where;
 }
 
-/// A grid's axes, and for which members something else is set besides.
+/// Reads a grid: its axes, and the further overrides of some of its members.
 Grid read_grid(TomlTable& table, const fs::path& file, const PlannedRun& base) {
   Grid grid;
   const std::string name = table.text("name");
@@ -153,7 +153,7 @@ std::string name_part(std::string value) {
   return made_plain(value, ".-");
 }
 
-/// The run at chosen[a] of each axis a. What `where` sets comes last: it overrides the rest.
+/// The run at chosen[a] of each axis a. The overrides of `where` come last and replace others.
 PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
   PlannedRun run = grid.base;
   const auto value_of = [&](const std::string& key) {
@@ -175,7 +175,7 @@ PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
   return run;
 }
 
-/// All members, the last key changing fastest: counts like an odometer.
+/// Adds all members; the last key changes fastest.
 void expand(const Grid& grid, const std::function<void(PlannedRun)>& add) {
   std::vector<size_t> chosen(grid.axes.size(), 0);
   for (;;) {
@@ -186,7 +186,7 @@ void expand(const Grid& grid, const std::function<void(PlannedRun)>& add) {
   }
 }
 
-/// Names that can be names, each once, and runs that are valid scenes, which are read.
+/// Checks that names are valid and each stands once, and reads the scene of every run.
 void validate(Plan& plan, const std::string& origin) {
   const auto check_name = [&](const std::string& what, const std::string& name) {
     if (!is_plain(name, "_-.=") || name[0] == '.' || name[0] == '-')
@@ -222,7 +222,7 @@ Plan plan_of(const std::string& toml, const fs::path& file) {
   std::vector<TomlTable> runs = root.sections("run");
   std::vector<TomlTable> grids = root.sections("grid");
   root.finish();
-  // Runs are few and small enough, before any of them is looked at closer.
+  // Limits the number and size of the runs before any of them is resolved.
   size_t text = 0;
   const auto add = [&](PlannedRun run) {
     text += run.name.size() + run.scene.size();
@@ -234,11 +234,11 @@ Plan plan_of(const std::string& toml, const fs::path& file) {
                   ": expected several smaller plans");
     plan.runs.push_back(std::move(run));
   };
-  // Single runs as they stand, then the members of each grid.
+  // First come the single runs, then the members of each grid.
   for (TomlTable& table : runs) {
     const std::string name = table.text("name");
     PlannedRun run = read_base(table, file, base);
-    if (run.scene.empty()) table.text("scene");  // says that it is missing
+    if (run.scene.empty()) table.text("scene");  // throws Error: it is missing
     table.finish();
     run.name = name;
     add(std::move(run));

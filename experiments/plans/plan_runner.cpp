@@ -35,7 +35,7 @@ void make_folders(const fs::path& results) {
   for (const char* name : {"runs", "packings", "logs"}) create_folder(results / name);
 }
 
-/// Arguments of the ballast program that begin or continue the run, or see to its packing.
+/// Arguments of the ballast program that begin or continue the run, or only make its packing.
 std::vector<std::string> run_arguments(const fs::path& results, const PlannedRun& run,
                                        bool deposit_only = false) {
   std::vector<std::string> words{"run", run.scene};
@@ -56,7 +56,7 @@ long steps_in_log(const fs::path& run_folder) {
   if (!is_there(log)) return 0;
   try {
     return RowReader(log).row_count();
-  } catch (const Error&) {  // just being made
+  } catch (const Error&) {  // the log is just being made
     return 0;
   }
 }
@@ -88,13 +88,13 @@ void write_index(const fs::path& results, const Plan& plan, const std::set<std::
       for (const char* name : {"drive_seconds", "error_mean_relative"})
         cells.push_back(number_cell(manifest.summary_number(name), 6));
       cells.push_back(manifest.commit());
-    } catch (const Error&) {  // not written yet, or damaged: the run itself will say so
+    } catch (const Error&) {  // not written yet, or damaged: the run itself will report it
       cells.resize(9);
     }
     csv.add_row(cells);
   }
   std::string text = csv.take();
-  // Plans may share a folder: all that were ever run there are in the one table.
+  // Plans may share a folder: the one table has the runs of all plans that were run there.
   if (is_there(file)) {
     const std::vector<std::string> rows = split(read_whole_file(file), '\n');
     for (size_t k = 1; k < rows.size(); ++k)
@@ -104,7 +104,7 @@ void write_index(const fs::path& results, const Plan& plan, const std::set<std::
 }
 
 double work_done(const std::vector<Task>& tasks) {
-  // A run that goes on counts by its steps; a deposit counts when it is through.
+  // A run that goes on counts by its steps; a deposit counts when it is finished.
   double done = 0.0;
   for (const Task& task : tasks) {
     if (task.state == TaskState::finished)
@@ -128,7 +128,7 @@ long count(const std::vector<Task>& tasks, bool is_run, TaskState state) {
 std::string plan_progress(const std::vector<Task>& tasks, double work_before, double seconds) {
   double all = 0.0;
   for (const Task& task : tasks) all += task.work;
-  // What is left takes as long as what was done since the beginning, in proportion to the work.
+  // The time left is in proportion to the work left, at the pace since the plan was taken up.
   const double done = work_done(tasks), gained = done - work_before;
   std::string text = printed(
       "%3.0f %%  %ld of %ld runs, %ld running", all > 0.0 ? std::floor(100.0 * done / all) : 100.0,
@@ -144,9 +144,9 @@ std::string plan_progress(const std::vector<Task>& tasks, double work_before, do
 
 std::vector<Task> make_tasks(const fs::path& results, std::vector<PlannedRun> runs) {
   std::vector<Task> tasks;
-  // Of deposits and of runs the longest come first, so that no long one is left for the end.
+  // The longest deposits and the longest runs come first, so that no long one is left for the end.
   std::ranges::stable_sort(runs, std::greater(), &PlannedRun::packing_work);
-  std::map<std::string, int> deposits;  // several runs have one packing
+  std::map<std::string, int> deposits;  // several runs may share one
   for (const PlannedRun& run : runs) {
     const bool needs_packing = !run.packing.empty() && state_of(results, run) != "finished" &&
                                !is_there(packing_file(packing_folder(results), run.packing));
@@ -158,7 +158,7 @@ std::vector<Task> make_tasks(const fs::path& results, std::vector<PlannedRun> ru
                        .work = run.packing_work});
   }
   std::ranges::stable_sort(runs, std::greater(), &PlannedRun::work);
-  std::set<std::string> seen;  // two names may be one run
+  std::set<std::string> seen;  // two names may mean one run
   for (const PlannedRun& run : runs) {
     if (!seen.insert(run.key).second) continue;
     Task& task = tasks.emplace_back(Task{.title = run.name,
@@ -193,8 +193,8 @@ std::vector<std::string> plan_commands(const Plan& plan, const PlanOptions& opti
 
 namespace {
 
-/// Starts tasks in their order while processes are free, looks at them two hundred times a second,
-/// and says what came out.
+/// Starts tasks in their order while processes are free, checks them two hundred times a second,
+/// and reports the results.
 class Engine {
  public:
   Engine(const Plan& plan, const PlanOptions& options, std::vector<Task> tasks)
@@ -207,14 +207,14 @@ class Engine {
         line_(options.style, std::cerr) {}
 
   ExitCode execute() {
-    ExitCode stopped = ExitCode::ok;  // what stopped everything before its end; ok: nothing did
-    // Take in what has ended, start what can be started, say how far it is.
+    ExitCode stopped = ExitCode::ok;  // the reason to stop early; ok: none
+    // Collects ended tasks, starts the ones that can start, and shows the progress.
     while (start_what_can(stopped == ExitCode::ok) || !workers_.empty()) {
       collect();
       if (stopped == ExitCode::ok &&
           (InterruptGuard::requested() || seconds() > options_.max_seconds)) {
         stopped = InterruptGuard::requested() ? ExitCode::failure : ExitCode::time_limit;
-        // they write a checkpoint and end; the loop goes on until all have
+        // the workers write a checkpoint and end; the loop goes on until all have
         for (const auto& [task, worker] : workers_) worker->send(SIGTERM);
       }
       show();
@@ -229,21 +229,21 @@ class Engine {
  private:
   double seconds() const { return watch_.seconds(); }
 
-  /// Something happened: a line on stdout.
+  /// Prints an event as a line on stdout.
   void say(const std::string& text) {
     line_.end();
     if (options_.style != StatusLine::Style::quiet) std::cout << text << std::endl;
   }
 
   void show() {
-    // hours rather than minutes: half a minute between lines
+    // plans take hours rather than minutes: half a minute between lines
     if (options_.style == StatusLine::Style::quiet || seconds() < shown_ + 3.0 * line_.interval())
       return;
     shown_ = seconds();
     line_.write(plan_progress(tasks_, work_before_, shown_));
   }
 
-  /// False when nothing was there to start; failed deposits take their runs with them.
+  /// Returns false when no task was started. The runs of a failed deposit fail with it.
   bool start_what_can(bool may_start) {
     bool started = false;
     for (size_t k = 0; k < tasks_.size(); ++k) {
@@ -295,7 +295,7 @@ class Engine {
     say("FAILED    " + words);
   }
 
-  /// index.csv, every twenty seconds and at the end: what has failed is known here alone.
+  /// Writes index.csv, every twenty seconds and at the end. Only the engine knows the failed tasks.
   void index() {
     std::set<std::string> failed;
     for (const Task& task : tasks_)
@@ -304,7 +304,7 @@ class Engine {
     indexed_ = seconds();
   }
 
-  /// What came out, and how to go on.
+  /// Prints the results and how to go on.
   ExitCode conclude(ExitCode stopped) const {
     const long runs = std::ranges::count_if(tasks_, &Task::is_run),
                finished = count(tasks_, true, TaskState::finished),
@@ -333,7 +333,7 @@ class Engine {
   StatusLine line_;
   Stopwatch watch_;
   double indexed_ = 0.0, shown_ = 0.0;
-  std::string failure_;                                      // the first
+  std::string failure_;                                      // of the first that failed
   std::map<size_t, std::unique_ptr<ChildProcess>> workers_;  // by task
   std::map<size_t, double> begun_;
 };

@@ -9,7 +9,7 @@ namespace {
 
 constexpr SealedKind checkpoint_kind{"BALLCKPT", "checkpoint", 1};
 
-/// All but the deposit.
+/// Packs or unpacks everything except the deposit.
 template <class Carrier, class Of>
 void carry_motion(Carrier& carrier, Of& checkpoint) {
   const auto vector = [&](auto& value) { carrier.fixed(value); };
@@ -53,7 +53,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   unpacker.finish();
   unpacker.require(deposit.size() == 4);
   checkpoint.deposit = {deposit[0], deposit[1], deposit[2], deposit[3]};
-  // A file may be whole and yet not fit together: every body has a pose, a velocity and a spin, and
+  // An intact file may still be inconsistent: every body needs a pose, a velocity and a spin, and
   // every contact an impulse.
   const MotionState& state = checkpoint.state;
   unpacker.require(state.velocity.size() == state.pose.size());

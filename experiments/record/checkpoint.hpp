@@ -1,5 +1,5 @@
 #pragma once
-// Everything from which a run continues to the last bit.
+// Everything that a run needs to continue with the same bits.
 
 #include <filesystem>
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace ballast {
 
-/// What a deposit knows besides the motion. What is not reached yet is 0.
+/// The state of a deposit besides its motion. Values that are not reached yet are 0.
 struct DepositState {
-  double top = 0.0;            ///< highest vertex when the lid was raised [m]
+  double top = 0.0;            ///< of the packing when the lid was raised [m]
   double lid = 0.0;            ///< height of the lid [m]
-  double rain_time = 0.0;      ///< simulated until rest [s]
+  double rain_time = 0.0;      ///< simulated time until rest [s]
   double rest_velocity = 0.0;  ///< rms grain velocity at the end [m/s]
 };
 
 struct Checkpoint {
-  /// Of the resolved scene; of a deposit and its packing packing_key(). Of another one it is
-  /// refused.
+  /// The key of the resolved scene, for a deposit and its packing packing_key(). A checkpoint with
+  /// another key is refused.
   std::string key;
   std::string phase;  ///< "rain", "press", "settle", "packing" or "drive"
   MotionState state;
@@ -27,8 +27,8 @@ struct Checkpoint {
   DepositState deposit;  ///< of a deposit and its packing; zeros in a drive
 };
 
-/// Binary, with magic, format and a checksum; written to a neighbour, fsynced, renamed. Throws
-/// Error.
+/// Writes a binary file with magic, format and a checksum to a neighbour, which is fsynced and
+/// renamed. Throws Error.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 /// Throws Error naming the file: missing, truncated, checksum wrong, other format, or lists whose

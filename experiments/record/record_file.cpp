@@ -18,7 +18,7 @@ void describe(Hdf5Writer& file, const std::string& dataset, const char* unit,
   file.add_attribute(dataset, "description", description);
 }
 
-/// The bodies in the order of a row: one list of members serves both ways.
+/// Visits the numbers of all bodies in the order of a row, both to pack and to unpack.
 template <class State, class Carry>
 void carry_bodies(State& state, Carry&& carry) {
   for (auto& pose : state.pose)
@@ -39,7 +39,7 @@ struct SystemTables {
   std::vector<std::int32_t> shape, triangles, vertex_begin{0}, triangle_begin{0}, part_body,
       part_shape;
 
-  /// Calls with(dataset, values, numbers in a row, unit, description) for all but the names.
+  /// Calls with(dataset, values, numbers per row, unit, description) for all tables but the names.
   template <class With>
   void each(With&& with) {
     with("bodies/mass", mass, 1, "kg", "mass; of a driven wall: the wall's");
@@ -48,7 +48,7 @@ struct SystemTables {
     with("bodies/wall_normal", wall_normal, 3, "1", "body frame, into the free side; 0 for grains");
     with("bodies/shape", shape, 1, "1",
          "number of the shape in /shapes; -1 for walls; of a body of parts their hull");
-    // All shapes in four datasets: a group for each shape took HDF5 20 MB for 1200 of them.
+    // All shapes share four datasets: with a group for each shape HDF5 took 20 MB for 1200 of them.
     with("shapes/vertices", vertices, 3, "m", "body frame; shape after shape");
     with("shapes/triangles", triangles, 3, "1",
          "numbers of vertices within the shape, counter-clockwise from outside");
@@ -58,7 +58,7 @@ struct SystemTables {
          "shape k has the triangles triangle_begin[k] to triangle_begin[k + 1]");
   }
 
-  /// The same for the parts of bodies that have some; a record without has no group of them.
+  /// The same for the parts of bodies that have some; a record without parts has no group for them.
   template <class With>
   void each_of_parts(With&& with) {
     with("parts/body", part_body, 1, "1", "number of the body that the part belongs to");
@@ -75,11 +75,11 @@ void add_system(Hdf5Writer& file, const MechanicalSystem& system) {
   for (const auto& pointer : system.shapes) {
     const Polyhedron& shape = *pointer;
     const auto number = static_cast<std::int32_t>(shape_index.size());
-    if (!shape_index.emplace(&shape, number).second) continue;  // of several bodies
+    if (!shape_index.emplace(&shape, number).second) continue;  // shared by several bodies
     for (const Vec3& vertex : shape.vertices())
       tables.vertices.insert(tables.vertices.end(), vertex.begin(), vertex.end());
     for (int f = 0; f < shape.face_count(); ++f) {
-      // a polygon is a fan of triangles
+      // a polygon becomes a fan of triangles
       const auto loop = shape.face(f);
       for (size_t i = 2; i < loop.size(); ++i)
         tables.triangles.insert(tables.triangles.end(), {loop[0], loop[i - 1], loop[i]});
@@ -129,13 +129,13 @@ long whole(const Hdf5Reader& file, const char* dataset, double value, double mos
 }
 constexpr double most_steps = 0x1p53;
 
-/// How many rows are gathered at once: a megabyte of numbers.
+/// The number of rows that are gathered at once: a megabyte of numbers.
 size_t rows_together(const RowLayout& layout) {
-  // odd: never 0, whatever sizes a damaged file claims
+  // `| 1` makes the divisor odd, so never 0, whatever sizes a damaged file claims
   return std::max<size_t>(1, (1 << 17) / (layout.row_size() | 1));
 }
 
-/// Throws Error unless the group has so many rows of the layout.
+/// Throws Error unless each dataset of the group has `rows` rows of the shape in the layout.
 void require_rows(const Hdf5Reader& file, const RowLayout& layout, size_t rows) {
   for (const RowPart& part : layout.parts) {
     Hdf5Shape shape = part.shape;
@@ -223,14 +223,14 @@ void add_rows(Hdf5Writer& file, const std::filesystem::path& log, const RowLayou
   const size_t length = layout.row_size(), most_rows = rows_together(layout);
   std::vector<double> gathered, values;
   for (size_t first = 0; first < count; first += gathered.size() / length) {
-    // as many rows as may be gathered
+    // Gathers as many rows as allowed.
     gathered.clear();
     for (size_t k = first; k < std::min(count, first + most_rows); ++k) {
       const std::span<const double> row = rows.next();
       gathered.insert(gathered.end(), row.begin(), row.end());
       if (see) see(row);
     }
-    // part by part from all of them
+    // Writes each part of all gathered rows.
     size_t begin = layout.leading;
     for (size_t p = 0; p < layout.parts.size(); ++p) {
       const size_t size = layout.parts[p].size();
@@ -299,7 +299,7 @@ std::vector<MotionState> read_record_poses(const std::filesystem::path& path) {
     for (const RowPart& part : layout.parts)
       parts.push_back(file.read_rows("poses/" + part.name, first, here));
     for (size_t k = 0; k < here; ++k) {
-      // A frame is put together as its row stood in the log, and then taken apart like one.
+      // The row of a frame is put together as it was in the log, and then unpacked.
       std::vector<double> row;
       for (const std::vector<double>& values : parts) {
         const double* begin = values.data() + values.size() / here * k;
@@ -349,11 +349,11 @@ std::vector<FrameContact> RecordForces::of_frame(size_t frame) const {
 
 namespace {
 
-/// The hulls of the vertices; the triangles are for other readers.
+/// The hulls of the vertices. The stored triangles are for other readers.
 std::vector<std::shared_ptr<const Polyhedron>> shapes_of(const SystemTables& tables,
                                                          const Hdf5Reader& file) {
   const std::vector<std::int32_t>& begin = tables.vertex_begin;
-  // Where each shape begins: from zero, ascending, to the end.
+  // The begins of the shapes must ascend from zero to the end of the vertices.
   if (begin.empty() || begin.front() != 0 || !std::ranges::is_sorted(begin) ||
       3 * static_cast<size_t>(begin.back()) != tables.vertices.size())
     file.fail("the datasets of /shapes do not fit together");

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Where the logs and the records made of them are in a run's folder.
+// The places of the logs, and of the records made from them, in the folder of a run.
 fs::path steps_log(const fs::path& folder) { return folder / "log" / "steps.bin"; }
 fs::path poses_log(const fs::path& folder) { return folder / "log" / "poses.bin"; }
 fs::path forces_log(const fs::path& folder) { return folder / "log" / "forces.bin"; }
@@ -22,7 +22,7 @@ std::uint64_t add_bits(std::uint64_t hash, const Vec3& value) {
   return fnv1a({reinterpret_cast<const char*>(value.data()), 3 * sizeof(double)}, hash);
 }
 
-/// Of what a system is made of: names, masses, shapes.
+/// A key of the names, masses and shapes of a system.
 std::uint64_t system_key(const MechanicalSystem& system) {
   std::uint64_t hash = fnv1a(std::to_string(system.bodies.size()));
   for (const RigidBody& body : system.bodies) {
@@ -38,15 +38,15 @@ std::uint64_t system_key(const MechanicalSystem& system) {
   return hash;
 }
 
-/// A log belongs to one system and has its columns: another program's or another scene's log is
-/// then refused, not misread.
+/// A log's header names its system and columns, so that the log of another program or scene is
+/// refused and not misread.
 RowLogHeader header_of(const RowLayout& layout, const MechanicalSystem& system) {
   RowLogHeader header{layout.group, system_key(system), layout.row_size()};
   for (const RowPart& part : layout.parts) header.text += ' ' + part.name;
   return header;
 }
 
-/// Opens a log that is to be continued: of this system, with these columns.
+/// Opens a log to continue it. Throws Error unless it has this system and these columns.
 RowReader open_log(const fs::path& file, const RowLogHeader& expected) {
   RowReader reader(file);
   if (reader.header().text != expected.text || reader.header().row_size != expected.row_size)
@@ -56,8 +56,8 @@ RowReader open_log(const fs::path& file, const RowLogHeader& expected) {
   return reader;
 }
 
-/// Begins a log, or cuts one back to the checkpoint of `last_step`: what follows it will be made
-/// again. A row of the steps is a step; rows of frames and contacts begin with theirs.
+/// Begins a log, or cuts one back to the checkpoint of `last_step`, as later rows will be made
+/// again. Each row of the log of steps is a step; rows of frames and contacts begin with theirs.
 RowWriter begin_or_continue(const fs::path& file, const RowLayout& layout,
                             const MechanicalSystem& system, long last_step) {
   const RowLogHeader header = header_of(layout, system);
@@ -86,7 +86,7 @@ Recorder::Recorder(const fs::path& folder, const MechanicalSystem& system, long 
       begin_or_continue(poses_log(folder), poses_layout(system.bodies.size()), system, last_step));
   if (with_forces)
     forces_.emplace(begin_or_continue(forces_log(folder), contacts_layout(), system, last_step));
-  // A record of earlier steps is not one of this run any more.
+  // A record made earlier does not describe this run any more.
   for (const fs::path& file : {record_file(folder), steps_table(folder)}) {
     std::error_code error;
     fs::remove(file, error);
@@ -103,7 +103,7 @@ void Recorder::add_step(const StepRecord& record) {
 void Recorder::add_frame(const MotionState& state, const StepMemory& memory, double h) {
   pack_pose_row(state, row_);
   poses_->append(row_);
-  // What is there before the first step belongs to no step of this run.
+  // Contacts that exist before the first step belong to no step of this run.
   if (!forces_ || state.step == 0) return;
   for (size_t c = 0; c < memory.contacts.size(); ++c) {
     const ContactPoint& contact = memory.contacts[c];

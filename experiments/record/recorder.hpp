@@ -1,5 +1,5 @@
 #pragma once
-// The record of a run: append-only raw logs while it lives, one HDF5 file and one CSV when it ends.
+// The record of a run: append-only raw logs while it runs, one HDF5 file and one CSV when it ends.
 
 #include <filesystem>
 #include <optional>
@@ -11,29 +11,29 @@
 namespace ballast {
 
 /// Rows are appended to log/steps.bin (fixed size, one per step), log/poses.bin (fixed size, one
-/// per stored frame) and, if asked for, log/forces.bin (one per contact of a stored frame), so that
-/// a killed run loses at most what came after its last checkpoint, and a resumed one cuts them back
-/// to it.
+/// per stored frame) and, if asked for, log/forces.bin (one per contact of a stored frame). A
+/// killed run loses at most the rows after its last checkpoint; a resumed one cuts the logs back to
+/// it.
 class Recorder {
  public:
   /// Opens or creates the logs in `folder`. Rows with step > `last_step` are cut off (0: start
-  /// afresh, without any row, so that the frame of step 0 is added again). A steps.csv and
-  /// record.h5 of before are removed: they would not be this run's. `system` must outlive the
+  /// afresh, without any row, so that the frame of step 0 is added again). An earlier steps.csv and
+  /// record.h5 are removed because they do not describe this run. `system` must outlive the
   /// recorder. Throws Error naming the file: unwritable, shorter than last_step says, damaged, of
-  /// another system or other columns.
+  /// another system or with other columns.
   Recorder(const std::filesystem::path& folder, const MechanicalSystem& system, long last_step,
            bool with_forces = false);
 
-  /// One call per step: row k is step k + 1.
+  /// To be called once per step: row k is step k + 1.
   void add_step(const StepRecord& row);
-  /// A stored frame and, where forces are asked for, its contacts with the impulses of its step
-  /// [N s], which is `h` long [s].
+  /// Adds a frame and, where forces are asked for, its contacts, whose forces are the impulses of
+  /// the step [N s] over its length `h` [s].
   void add_frame(const MotionState& state, const StepMemory& memory, double h);
-  /// Everything so far on disk (fflush + fsync): called before a checkpoint is written. Throws
-  /// Error, for instance on a full disk.
+  /// Makes all rows safe on disk (fflush + fsync). To be called before a checkpoint is written.
+  /// Throws Error, for instance on a full disk.
   void flush();
-  /// steps.csv and record.h5 from the logs, each written beside and renamed. The two texts are kept
-  /// in record.h5.
+  /// Makes steps.csv and record.h5 from the logs; each is written beside its target and renamed.
+  /// The two texts are stored in record.h5.
   void finish(const std::string& scene_text, const std::string& manifest_text);
 
  private:
@@ -43,13 +43,13 @@ class Recorder {
   std::vector<double> row_;
 };
 
-/// Reads back what a recorder wrote: record.h5, or where there is none the raw logs of a run still
-/// going. Throws Error.
+/// The steps and the frames that a recorder wrote, from record.h5 or, where there is none, from the
+/// raw logs of an unfinished run. Throws Error.
 std::vector<StepRecord> read_steps(const std::filesystem::path& folder);
 std::vector<MotionState> read_poses(const std::filesystem::path& folder);
 
-/// Throws Error where the folder's log was begun with other bodies than these: a mesh file that the
-/// scene names has changed meanwhile. Without a log there is nothing to compare.
+/// Throws Error where the log of the folder was begun with other bodies: a mesh file that the scene
+/// names has changed since. Without a log nothing is compared.
 void require_same_bodies(const std::filesystem::path& folder, const MechanicalSystem& system);
 
 }  // namespace ballast

@@ -72,7 +72,7 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
   captured.wall_x = record.wall_x;
   captured.wall_v = record.wall_v;
   captured.load = record.load;
-  // Of each contact what a solver may not need, but whoever looks at its answer does.
+  // Data of each contact that a solver may not need, but an analysis of its answer does.
   for (const int c : stepper.assembler().detected()) {
     const ContactPoint& contact = memory.contacts[static_cast<size_t>(c)];
     captured.gap.push_back(contact.gap);

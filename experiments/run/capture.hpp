@@ -1,8 +1,8 @@
 #pragma once
-// Friction problems taken out of a run, as files that FCLIB's tools and `ballast compare` read
+// Captures friction problems of a run as files that FCLIB's tools and `ballast compare` read
 // (problems/files/captured_problem).
 //
-// Consecutive steps are taken together: only so is a warm start what a run would have had.
+// Steps are captured in groups of consecutive ones: only then is a warm start the one of the run.
 
 #include <filesystem>
 #include <string_view>
@@ -12,29 +12,29 @@
 
 namespace ballast {
 
-/// Which steps (counted from 1): of every `every` steps the first `steps`, between `from` and `to`.
-/// As made: none.
+/// The steps to capture, counted from 1: the first `steps` of every `every` steps, between `from`
+/// and `to`. By default none.
 struct CaptureSettings {
-  long every = 0;  ///< 0: no group begins anew, all steps from `from` on are one
-  long steps = 2;  ///< of each group; where every is 1 and it is not said: 1
+  long every = 0;  ///< 0: all steps from `from` to `to` are one group
+  long steps = 2;  ///< of each group; default of parse() where every is 1: 1
   long from = 1, to = 0;
-  long also = 0;  ///< one more step, wherever it is; 0: none
+  long also = 0;  ///< one more step, also outside the range; 0: none
 
-  /// "every=50", "from=1000,to=1020", "every=100,steps=3,from=2000,also=10"; nothing: none. Throws
-  /// std::invalid_argument saying what is wrong.
+  /// Reads "every=50", "from=1000,to=1020", "every=100,steps=3,from=2000,also=10"; an empty text:
+  /// none. Throws std::invalid_argument saying what is wrong.
   static CaptureSettings parse(std::string_view text);
   bool takes(long step) const;
 };
 
-/// Writes step_0000050.hdf5, ... into `folder`, made with the first; `h` [s], `g` [m/s^2]: the
-/// run's. Steps are only looked at: a run has the same bits with and without.
+/// Writes step_0000050.hdf5, ... into `folder`, which is made with the first file. `h` [s] and `g`
+/// [m/s^2] are those of the run. Capture only reads: a run has the same bits with and without it.
 class StepCapture {
  public:
   StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g);
 
-  /// A step of before, of a run that goes on.
+  /// To be called for every earlier step of a resumed run.
   void see(const StepRecord& record);
-  /// After a step. Throws Error.
+  /// To be called after a step. Throws Error.
   void observe(const TimeStepper& stepper, const MotionState& state, const StepMemory& memory,
                const StepRecord& record);
 
@@ -42,7 +42,7 @@ class StepCapture {
   CaptureSettings settings_;
   std::filesystem::path folder_;
   double h_, g_;
-  double fastest_wall_ = 0.0;  ///< so far [m/s]
+  double fastest_wall_ = 0.0;  ///< largest speed of the driven wall so far [m/s]
 };
 
 }  // namespace ballast

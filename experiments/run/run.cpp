@@ -36,7 +36,7 @@ bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manife
     run.system = drive_system(scene, rain, packing, run.state);
     run.memory = std::move(packing.memory);
     run.control_volume = box_control_volume(scene, packing.deposit.top);
-    // What the run's page and the campaign's figures scale with, and the scene does not say.
+    // Scales of the run's page and the campaign's figures that the scene does not contain.
     manifest.summary("grain_mass_kg", run.system.mass_of_grains());
     manifest.summary("packing_top_m", packing.deposit.top);
     manifest.summary("solid_fraction_initial",
@@ -49,12 +49,12 @@ bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manife
 
 namespace {
 
-/// Steps between two that are `rate` [Hz] apart, at least one; 0: none is asked for.
+/// The number of steps between two outputs at `rate` [Hz], at least one; 0: no output is asked for.
 long steps_between(double rate, double h) {
   return rate > 0.0 ? std::lround(std::clamp(1.0 / (rate * h), 1.0, 1e15)) : 0;
 }
 
-/// One call of `ballast run`: the folder, the start, the drive, and what is said at the end.
+/// One call of `ballast run`: the folder, the start, the drive, and the messages at the end.
 class Run {
  public:
   Run(const RunOptions& options)
@@ -64,7 +64,7 @@ class Run {
                                        : options.output),
         manifest_(resolved_.scene.name, options.overrides, resolved_.key) {
     resolved_.scene.solver.threads = options.threads;
-    // a backend that is missing is said before anything is written
+    // A missing backend is reported before anything is written.
     make_solver(scene_.solver.name);
     if (scene_.grains) make_solver(scene_.deposit.solver);
   }
@@ -84,7 +84,7 @@ class Run {
   }
 
  private:
-  /// Of what names no file: with the scene before it, and the time that the drive has come to.
+  /// Rethrows an error that names no file, preceded by the scene and the time of the drive.
   [[noreturn]] void fail(const std::exception& error) const {
     const MotionState& at = run_.state;
     throw Error(options_.scene + ": " + (at.step > 0 ? printed("t = %.6g s: ", at.time) : "") +
@@ -109,13 +109,13 @@ class Run {
     return end;
   }
 
-  /// ok: nothing stops it.
+  /// The reason to stop; ok: there is none.
   ExitCode why_to_stop() const {
     if (InterruptGuard::requested()) return ExitCode::failure;
     return watch_.seconds() < options_.max_seconds ? ExitCode::ok : ExitCode::time_limit;
   }
 
-  /// Nothing is left to do; that is said.
+  /// Returns whether nothing is left to do, and prints that.
   bool is_finished() const {
     if (!options_.resume || !folder_.has_run() || !folder_.is_finished(resolved_.key)) return false;
     if (options_.style != Progress::Style::quiet)
@@ -123,9 +123,9 @@ class Run {
     return true;
   }
 
-  /// Nobody else works in the folder from here on. False: there is nothing to do in it.
+  /// Locks the folder, then begins or resumes the run there. False: nothing is left to do.
   bool open_folder() {
-    if (is_finished()) return false;  // also where nothing may be written
+    if (is_finished()) return false;  // also in a folder without write access
     create_folder(folder_.path());
     lock_.emplace(folder_.path() / "run.lock", briefly);
     lock_->require_held();
@@ -134,10 +134,10 @@ class Run {
       folder_.begin(resolved_.text, manifest_, options_.overwrite);
       return true;
     }
-    if (is_finished()) return false;  // meanwhile
+    if (is_finished()) return false;  // another process has done it meanwhile
     if (read_whole_file(folder_.scene()) == resolved_.text) {
       manifest_ = Manifest::read(folder_.manifest());
-      if (manifest_.key() == resolved_.key) return true;  // it knows the meshes too
+      if (manifest_.key() == resolved_.key) return true;  // the key covers the meshes too
     }
     throw Error(folder_.path().string() +
                 ": holds a run of other settings: give the same scene and --set, or --overwrite");
@@ -145,7 +145,7 @@ class Run {
 
   PackingOrder packing_order() const {
     PackingOrder order;
-    // beside the folder's name: where that is a link, the kernel's ".." is another folder
+    // Relative to the folder's name: where it is a link, the kernel's ".." is another folder.
     order.cache = options_.packing_cache.empty()
                       ? (folder_.path() / ".." / "packings").lexically_normal()
                       : options_.packing_cache;
@@ -154,7 +154,7 @@ class Run {
     return order;
   }
 
-  /// From the scene, its packing, or the checkpoint. False: stopped while depositing.
+  /// Takes the state from scene, packing or checkpoint. False: stopped while depositing.
   bool prepare() {
     if (!prepare_run(scene_, packing_order(), manifest_, run_)) return false;
     if (is_resumed_ && is_there(folder_.checkpoint())) {
@@ -163,7 +163,7 @@ class Run {
       run_.state = std::move(found.state);
       manifest_.resumed(run_.state.step);
     }
-    // what is killed later has its packing, and has been resumed, all the same
+    // Written here so that a run killed later has its packing and resumption noted.
     manifest_.write(folder_.manifest());
     return true;
   }
@@ -174,13 +174,13 @@ class Run {
     Recorder recorder(folder_.path(), run_.system, run_.state.step, scene_.record.forces);
     const Stopwatch watch;
     const long first = run_.state.step;
-    // What the steps need is given back before the record is put together in memory.
+    // step_on() frees the memory of the steps before the record is put together in memory.
     const ExitCode end = step_on(recorder);
     if (const long done = run_.state.step - first; done > 0)
       manifest_.summary("ms_per_step", 1e3 * watch.seconds() / static_cast<double>(done));
     manifest_.summary("peak_memory_MB", peak_memory_MB());
     manifest_.summary(steps_left_entry, static_cast<double>(scene_.step_count() - run_.state.step));
-    // of all steps, also those before the run was last resumed
+    // over all steps, also those before the run was last resumed
     const std::vector<StepRecord> steps = read_steps(folder_.path());
     double seconds = 0.0, error = 0.0;
     for (const StepRecord& row : steps) {
@@ -195,13 +195,13 @@ class Run {
   }
 
   /// The loop: step, measure, record, checkpoint. A checkpoint is written every
-  /// record.checkpoint_seconds and at the end, whatever ends it; records are made safe before it,
-  /// so that they never lack what it has.
+  /// record.checkpoint_seconds and at the end, whatever ends the loop. The records are made safe
+  /// before it, so that they never lack a step that it has.
   ExitCode step_on(Recorder& recorder) {
     TimeStepper stepper(run_.system, scene_, run_.system.first_driven_wall());
     Progress progress(options_.style);
     StepCapture capture(options_.capture, folder_.capture(), scene_.step, scene_.gravity.norm());
-    // phases are told beside the fastest that the whole run has seen
+    // Phases are relative to the fastest wall velocity of the whole run.
     if (run_.state.step > 0 && options_.capture.to > 0)
       for (const StepRecord& row : read_steps(folder_.path())) capture.see(row);
     const RecordSpec& spec = scene_.record;
@@ -219,7 +219,7 @@ class Run {
     if (run_.state.step == 0) store_frame();
     while (run_.state.step < scene_.step_count() && end == ExitCode::ok) {
       StepRecord record = stepper.step(run_.state, run_.memory);
-      // What is measured between steps counts as part of the step's wall clock, here alone.
+      // Measurements between steps count as part of the step's wall clock only here.
       const Stopwatch watch;
       if (run_.control_volume)
         record.solid_fraction =

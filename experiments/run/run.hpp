@@ -1,5 +1,5 @@
 #pragma once
-// One run: a scene to a folder of results, resumable after any kind of death.
+// One run: turns a scene into a folder of results. It can be resumed however it was ended.
 
 #include <filesystem>
 #include <optional>
@@ -14,8 +14,8 @@
 
 namespace ballast {
 
-/// A scene that is to be run, by name or path. Throws Error, also where no solver has the
-/// name that stands in it; a known one may be missing in this build.
+/// Resolves a scene to be run, by name or path. Throws Error, also where no solver has the name
+/// that the scene gives; a known solver may be missing in this build.
 ResolvedScene resolve_run(const std::string& scene, const std::vector<std::string>& overrides);
 
 struct RunOptions {
@@ -24,15 +24,15 @@ struct RunOptions {
   std::filesystem::path output;        ///< the run's folder; empty: results/<scene name>
   /// Where deposited packings are kept; empty: <output>/../packings.
   std::filesystem::path packing_cache;
-  /// Continues the run found in the folder, or begins one; a finished one is left as it is. Without
-  /// it an existing run is an error.
+  /// Continues the run in the folder, or begins one; a finished run is left as it is. Without
+  /// `resume` an existing run is an error.
   bool resume = false;
   bool overwrite = false;  ///< replace a run found in the folder
-  /// Only see to it that the packing is in the cache; the folder is not touched.
+  /// Only makes sure that the packing is in the cache; the folder is not touched.
   bool deposit_only = false;
   CaptureSettings capture;  ///< steps to keep as problem files
-  int threads = 1;          ///< of a step; the results are the same whatever their number
-  /// The command that goes on with this run, for a shell in any folder; empty: none is told.
+  int threads = 1;          ///< of a step; their number does not change the results
+  /// The shell command that continues this run from any folder; empty: none is printed.
   std::string again;
   double max_seconds = 1e30;  ///< wall clock: checkpoint and exit code 3 after this
   Progress::Style style = StatusLine::style_of_stderr();
@@ -42,20 +42,20 @@ struct RunOptions {
 struct RunEnd {
   ExitCode code = ExitCode::ok;
   std::filesystem::path folder;  ///< of the run
-  bool was_finished = false;     ///< all of its steps were there before: nothing was done
+  bool was_finished = false;     ///< it was so before this call: nothing was done
 };
 
-/// Runs to the end, to the time limit, or to a signal that InterruptGuard catches (checkpoint, then
-/// ExitCode::failure with the line that goes on). A folder is one process's at a time: another one
-/// that runs there throws, and a packing that another run deposits is waited for. Throws
-/// MissingSolver, Error: each with a one-line what().
+/// Runs to the end, to the time limit, or to a signal that InterruptGuard catches (then:
+/// checkpoint, ExitCode::failure and a printed line that says how to continue). One process at a
+/// time works in a folder: run() throws where another one runs there, and waits for a packing that
+/// another run deposits. Throws MissingSolver, Error: each with a one-line what().
 ///
 /// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5,
 /// checkpoint.bin, capture/ and states/ (if asked for), log/ (raw rows from which the two records
-/// are made). Its page is write_report()'s (experiments/run_page).
+/// are made). write_report() (experiments/run_page) makes its page.
 RunEnd run(const RunOptions& options);
 
-/// A run before its first step, as its loop needs it.
+/// The start of a run, as its loop needs it.
 struct PreparedRun {
   MechanicalSystem system;
   MotionState state;
@@ -63,9 +63,9 @@ struct PreparedRun {
   std::optional<ControlVolume> control_volume;  ///< of the vibrated box
 };
 
-/// The start of the scene: as it says, or driven from its packing, which `order` says where to
-/// find. What a reader wants to know of the box is noted in the manifest. False: stopped while
-/// depositing. Throws Error.
+/// Prepares the start of a run: from the scene alone, or driven from its packing, which is taken as
+/// `order` says. Facts about the box that a reader needs are noted in the manifest. Returns false
+/// when stopped while depositing. Throws Error.
 bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manifest,
                  PreparedRun& run);
 

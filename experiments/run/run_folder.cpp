@@ -53,7 +53,7 @@ Json machine_json() {
   const bool is_known = getloadavg(load, 3) == 3;
   for (double& one : load) one = std::round(100.0 * one) / 100.0;
   json["load_average"] = is_known ? Json(load) : Json(nullptr);
-  // what changes the time or the bits of a threaded BLAS
+  // variables that change the time or the bits of a threaded BLAS
   json["environment"] = Json::object();
   for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"})
     if (const char* value = std::getenv(name)) json["environment"][name] = value;
@@ -100,7 +100,7 @@ Manifest Manifest::read(const fs::path& file) {
     throw Error(file.string() + ": is no JSON: it cannot be read on from byte " +
                 std::to_string(error.byte));
   }
-  // only what is read below is looked at: later programs may note more
+  // Only the entries that are read below are checked: later programs may note more.
   const auto has = [&](const Json& in, const char* name, Json::value_t type) {
     if (!in.is_object() || !in.contains(name) || in[name].type() != type)
       throw Error(file.string() + ": is no manifest of a run: '" + name +
@@ -163,7 +163,7 @@ std::map<std::string, double> Manifest::summary_numbers() const {
   return numbers;
 }
 
-/// Names from a command line may be no UTF-8: such bytes are replaced, not refused.
+/// Names from a command line may not be UTF-8: invalid bytes are replaced, not refused.
 std::string Manifest::text() const {
   return json_->dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -172,7 +172,7 @@ void Manifest::write(const fs::path& file) const { write_whole_file(file, text()
 
 namespace {
 
-/// What a run writes: folders of its own, and the files in them as patterns; +(): one or more.
+/// The files of a run: folders of its own, and the files in them as patterns; +(): one or more.
 constexpr std::pair<const char*, const char*> run_files[] = {{"log", "steps.bin"},
                                                              {"log", "poses.bin"},
                                                              {"log", "forces.bin"},
@@ -185,7 +185,7 @@ constexpr std::pair<const char*, const char*> run_files[] = {{"log", "steps.bin"
                                                              {"", "scene.toml"},
                                                              {"", "manifest.json"}};
 
-/// What may be in a folder before its run has begun: a run that was killed meanwhile leaves it.
+/// Files that may be in a folder before its run has begun: a run killed early leaves them.
 constexpr std::string_view beginnings[] = {"run.lock", "manifest.json", "manifest.json.tmp",
                                            "scene.toml.tmp"};
 
@@ -198,10 +198,10 @@ bool is_manifest(const fs::path& file) {
   }
 }
 
-/// Removes what a run has written, by its names, and folders that are empty then.
+/// Removes the files that a run has written, by their names, and folders that are then empty.
 void clear(const fs::path& run) {
   std::error_code none;
-  // The page's figures: our scripts, known by their first line, and what gnuplot made of them.
+  // The page's figures: our scripts, known by their first line, and the pictures made from them.
   std::vector<fs::path> scripts;
   for (const fs::directory_entry& entry : fs::directory_iterator(run / "figures", none))
     if (entry.path().extension() == ".gnuplot" && entry.is_regular_file(none))
@@ -212,7 +212,7 @@ void clear(const fs::path& run) {
     fs::remove(script);
     fs::remove(script.replace_extension(".svg"));
   }
-  if (!scripts.empty()) fs::remove(run / "figures", none);  // where nothing else is in it
+  if (!scripts.empty()) fs::remove(run / "figures", none);  // only where it is empty
   for (const auto& [own, pattern] : run_files) {
     const fs::path folder = run / own;
     std::vector<fs::path> found;
@@ -236,7 +236,7 @@ bool RunFolder::is_finished(const std::string& key) const {
 void RunFolder::begin(const std::string& scene_text, const Manifest& manifest,
                       bool overwrite) const {
   create_folder(path_);
-  // A folder counts as new that holds nothing but what a run leaves that died while it began.
+  // A folder counts as new when it holds at most the files of a run that was killed as it began.
   const bool has_others =
       std::any_of(fs::directory_iterator(path_), fs::directory_iterator(), [](const auto& entry) {
         return std::ranges::find(beginnings, entry.path().filename()) == std::end(beginnings);
@@ -249,7 +249,7 @@ void RunFolder::begin(const std::string& scene_text, const Manifest& manifest,
     throw Error(path_.string() +
                 ": holds a run already: --continue goes on with it, --overwrite replaces it");
   clear(path_);
-  // The manifest first: a scene.toml without one could be anybody's.
+  // The manifest is written first: a scene.toml without one could be anybody's.
   manifest.write(this->manifest());
   write_whole_file(scene(), scene_text);
 }

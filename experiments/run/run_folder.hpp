@@ -1,6 +1,6 @@
 #pragma once
-// The folder of one run: what is where, who may write into it, what it says about itself
-// (manifest.json), and the bodies of the run that it holds.
+// The folder of one run: the places of its files, the rules for writing into it, its description
+// of itself (manifest.json), and the bodies of the run.
 //
 //   {"ballast":  {"version", "commit": 40 digits or "unknown", "modified": true where tracked files
 //                 differed from it, "compiler", "build_type", "flags",
@@ -12,7 +12,7 @@
 //    "resumed":  [{"step", "at": UTC, "commit", "modified", "cpu"}],
 //    "summary":  {name: number or text}}
 //
-// Times of day and the machine are here and nowhere else, so that records of equal runs are equal.
+// Times of day and the machine are here alone, and as a copy of this file in record.h5.
 
 #include <filesystem>
 #include <map>
@@ -30,22 +30,22 @@ struct Checkpoint;
 struct MechanicalSystem;
 struct MotionState;
 
-/// The program: "ballast 0.1.0 (0123456789ab, modified), GNU 12.2.0, Release".
+/// The program in words: "ballast 0.1.0 (0123456789ab, modified), GNU 12.2.0, Release".
 std::string build_line();
 
 /// The processor as the kernel names it; "unknown" where it doesn't (other architectures).
 std::string cpu_model();
 
-/// Of a run, or of what else is measured and kept with its program, machine and time.
+/// The manifest of a run or other measurement: its program, machine, time and results.
 class Manifest {
  public:
-  /// Of a run that starts now, on this machine, with this program.
+  /// The manifest of a run that starts at this moment, on this machine, with this program.
   Manifest(const std::string& scene, const std::vector<std::string>& overrides,
            const std::string& key);
   /// Throws Error naming the file: missing, no JSON, no manifest.
   static Manifest read(const std::filesystem::path& file);
 
-  /// Notes that the run goes on from `step`, now, here, with this program.
+  /// Notes that the run goes on from `step`, with the present time, machine and program.
   void resumed(long step);
 
   /// Sets one entry of the summary; a name set before is overwritten in its place. NaN and infinity
@@ -54,22 +54,22 @@ class Manifest {
   void summary(const std::string& name, const std::string& value);
 
   std::string key() const;
-  /// Of the program that began the run; "-dirty" when it was not quite that.
+  /// The commit of the program that began the run; "-dirty" follows where it was modified.
   std::string commit() const;
-  /// Processor and number of cores; "unknown" where it is not told.
+  /// Processor and number of cores; "unknown" where the manifest has none.
   std::string machine() const;
   std::string started() const;  ///< UTC, "2026-11-22T09:30:00Z"
   /// NaN when there is no such number.
   double summary_number(const std::string& name) const;
-  std::map<std::string, double> summary_numbers() const;  ///< all that there are
+  std::map<std::string, double> summary_numbers() const;  ///< all numbers in the summary
 
   std::string text() const;
-  /// Writes beside and renames. Throws Error.
+  /// Writes beside the target and renames. Throws Error.
   void write(const std::filesystem::path& file) const;
 
  private:
   explicit Manifest(const nlohmann::ordered_json& json);
-  std::shared_ptr<nlohmann::ordered_json> json_;  // one manifest's alone: shared for its deleter
+  std::shared_ptr<nlohmann::ordered_json> json_;  // not shared; shared_ptr for its deleter
 };
 
 class RunFolder {
@@ -83,35 +83,34 @@ class RunFolder {
   /// Whole states kept at record.state_rate: checkpoint files of single steps.
   std::filesystem::path states() const { return path_ / "states"; }
   std::filesystem::path state_at(long step) const;
-  /// The checkpoint or one of the states. Throws Error, also where it is another run's.
+  /// Reads the checkpoint or one of the states. Throws Error, also for those of another run.
   Checkpoint read_state(const std::filesystem::path& file) const;
-  /// Those that there are, in the order of time.
+  /// The existing files in states(), in the order of time.
   std::vector<std::filesystem::path> state_files() const;
   std::filesystem::path steps_log() const { return path_ / "log" / "steps.bin"; }
   bool has_run() const { return is_there(scene()); }
-  /// It holds all of the run of this key: every step, and records that have been closed.
+  /// Returns whether the folder holds the complete run of this key: all steps and closed records.
   bool is_finished(const std::string& key) const;
 
-  /// A fresh run: manifest.json and scene.toml are written. Refuses a folder that holds a run,
-  /// unless `overwrite`: then the files of that run are removed, by their names, and nothing else.
-  /// Refuses a folder with files but without a run of ours: they are somebody's, and are neither
-  /// removed nor mixed with a run's.
+  /// Begins a run: writes manifest.json and scene.toml. Refuses a folder that holds a run, unless
+  /// `overwrite`: then it removes the files of that run, by their names, and nothing else. Refuses
+  /// a folder with files but without a run: they belong to somebody else, and are neither removed
+  /// nor mixed with those of a run.
   void begin(const std::string& scene_text, const Manifest& manifest, bool overwrite) const;
 
  private:
   std::filesystem::path path_;
 };
 
-/// Entry of a manifest's summary: steps that are still to be done. 0 is written last of all.
+/// The entry of a manifest's summary for the steps still to be done. 0 is written last of all.
 inline constexpr const char* steps_left_entry = "steps_left";
 
-/// The system of a run's folder, rebuilt from its scene.toml and packing, with its latest
-/// checkpointed state. Throws Error, also where a mesh is not the one any more that the run began
-/// with.
+/// The system of a run's folder, rebuilt from its scene.toml, with the state of its latest
+/// checkpoint. Throws Error, also where a mesh has changed since the run began.
 MechanicalSystem system_of_run(const std::filesystem::path& folder, MotionState& state);
 
-/// The same for looking at, not for stepping: bodies, walls and shapes come from record.h5 where
-/// there is one, whatever has become of the scene's files. Which wall is driven is in it, not how.
+/// The same for display, not for stepping: bodies, walls and shapes come from record.h5 where it
+/// exists, whatever has become of the scene's files. It says which wall is driven, but not how.
 MechanicalSystem recorded_system(const std::filesystem::path& folder, MotionState& state);
 
 }  // namespace ballast

@@ -8,7 +8,7 @@
 namespace ballast {
 namespace {
 
-/// A figure of this room: its title is words(run.<name>.title).
+/// A figure of this page: its title is words(run.<name>.title).
 page::Picture run_picture(const std::string& name, int height, std::vector<Panel> panels,
                           page::Text caption) {
   return {.plot = {.name = name,
@@ -61,7 +61,7 @@ Panel jammed_panel(const RunData& data, const WallCycles& cycles, const std::vec
   Panel panel = time_panel(data, label, true);
   panel.curves = {line_of(time, all, "all steps", Ink::light, 0.8),
                   line_of(time, jammed, "jammed", Ink::green, 1.2)};
-  // single steps cross zero: the axis ends where one in a hundred is below
+  // single steps cross zero: the axis ends at the decade below which one value in a hundred lies
   std::erase_if(positive, [](double value) { return !(value > 0.0); });
   const double end = std::pow(10.0, std::floor(std::log10(quantile(positive, 0.01))));
   if (std::isfinite(end)) panel.y_min = std::min(end, highest_end);
@@ -79,7 +79,7 @@ page::Picture figure_12(const RunData& data, const RunSummary& summary) {
         page::words("run.fig12.reference", {{"reference", page::number(compaction.reference, 4)}});
   const std::vector<WallPeriod>& periods = summary.wall.periods;
   if (std::isfinite(compaction.gain) && periods.front().first > 0) {
-    // from the first period's begin to the last one's end: its slope is the mean gain
+    // a line from the first period's begin to the last one's end: its slope is the mean gain
     const auto change_after = [&](size_t samples) {
       return data.steps[samples - 1].solid_fraction - compaction.initial;
     };
@@ -187,7 +187,7 @@ page::Picture energy_figure(const RunData& data, const RunSummary& summary) {
   add_sum(&StepRecord::work_gravity, "of gravity", Ink::green);
   add_sum(&StepRecord::work_prescribed, "of walls and forces", Ink::orange);
   add_sum(&StepRecord::dissipated, "dissipated", Ink::vermilion);
-  // change of kinetic energy − works + dissipation since the start, without its sign
+  // absolute value of the change of kinetic energy − works + dissipation since the start
   std::vector<double> residual(data.steps.size(), data.steps.front().energy_residual);
   for (size_t k = 1; k < residual.size(); ++k) {
     const StepRecord& step = data.steps[k];
@@ -250,15 +250,15 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   Panel panel{.x_label = page::marked("*x*  (mm)"),
               .y_label = page::marked("*f*~g~  (") + unit.name + ")",
               .y_min = 0.0};
-  // Each step grey below, the smoothed force of each phase in its colour above: over the periods of
-  // the loop the samples that `is_drawn` takes; the line breaks between them.
+  // The force of each step is grey, the smoothed force of each phase above it has a colour. `add`
+  // draws the samples of the loop's periods that `is_drawn` takes; the line breaks between them.
   const size_t first = cycles.periods[cycles.loop_first].first,
                last = cycles.periods[cycles.loop_last - 1].last;
   const auto add = [&](const std::vector<double>& force, const char* title, Ink ink, double width,
                        const auto& is_drawn) {
     Curve& curve = panel.curves.emplace_back(Curve{.title = title, .ink = ink, .width = width});
     for (size_t k = first; k < last; ++k) {
-      // the first sample after a phase is taken along: no gaps where the colour changes
+      // the first sample after a phase is drawn, too: no gaps where the colour changes
       const bool is_in = is_drawn(k) || (k > first && is_drawn(k - 1));
       curve.add(is_in ? 1e3 * data.steps[k].wall_x : not_known,
                 is_in ? unit.factor * force[k] : not_known);

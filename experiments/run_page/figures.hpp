@@ -1,6 +1,6 @@
 #pragma once
-// What each figure of a run shows. The data are in the plot; the caption says what is drawn, what
-// the paper shows, what to look for.
+// The figures of a run. The data are in the plot; the caption says what is drawn, what the paper
+// shows, what to look for.
 
 #include <vector>
 
@@ -10,29 +10,29 @@
 
 namespace ballast {
 
-/// Paper's figures that a single run shows: Fig. 3, Fig. 4, Fig. 12. Empty without a driven wall or
-/// a packing.
+/// The paper's figures that a single run shows: Figs. 3, 4 and 12. Empty if the run has neither a
+/// driven wall nor a packing.
 std::vector<page::Picture> paper_figures(const RunData& data, const RunSummary& summary);
-/// Whether the run can be trusted: jammed state, error, penetration, iterations and contacts, cost,
-/// energy.
+/// The figures that show whether the run can be trusted: jammed state, error, penetration,
+/// iterations and contacts, energy.
 std::vector<page::Picture> diagnostic_figures(const RunData& data, const RunSummary& summary);
 
 page::Picture figure_3(const RunData& data, const RunSummary& summary);
 page::Picture figure_4(const RunData& data, const RunSummary& summary);
 
 /// Draws the change of the solid fraction since before the drive into the panel of Fig. 12, beside
-/// what it shows already.
+/// the curves that it has already.
 void draw_solid_fraction(const RunData& data, double initial, const page::Text& title, Ink ink,
                          double width, Panel& panel);
 
-/// A line of at most 3000 samples that look like all.
+/// A line of at most 3000 samples, which looks like the line of all samples.
 Curve line_of(std::vector<double> x, std::vector<double> y, const page::Text& title, Ink ink,
               double width = 1.6);
 
 /// Unit in which forces up to f_max are readable.
 struct ForceUnit {
   const char* name;
-  double factor;  ///< newtons to this
+  double factor;  ///< from newtons to this unit
 };
 ForceUnit force_unit(double f_max);
 

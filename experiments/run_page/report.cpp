@@ -18,12 +18,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// quantity | this run | bound or paper | verdict
+/// Makes a table of results: quantity | this run | bound or paper | verdict
 class Results {
  public:
-  /// Its name stands above its first row; without rows it does not stand.
+  /// Begins a group. Its name stands above its first row; a group without rows is left out.
   void group(const char* name) { group_ = name; }
-  /// Without a bound where that is not known.
+  /// Adds a value with its bound, or without one where the bound is not known.
   void bounded(const std::string& what, double value, double bound, const char* unit = "",
                double factor = 1.0) {
     if (!std::isfinite(bound)) return plain(what, page::quantity(factor * value, unit));
@@ -37,7 +37,7 @@ class Results {
     row(page::marked(what), std::move(value), {}, std::move(remark));
   }
 
-  /// `has_paper`: of the vibrated box, for which the paper's values are known.
+  /// `has_paper`: for the vibrated box, of which the paper's values are known.
   page::Table table(bool has_paper) {
     table_.head = {"", "this run", has_paper ? "asked, or paper" : "asked", ""};
     table_.is_number = {false, true, true, false};
@@ -46,7 +46,7 @@ class Results {
 
  private:
   void row(page::Text what, page::Text value, page::Text bound, page::Text mark) {
-    // what is not known of this run takes no row
+    // a value that is not known of this run takes no row
     const std::string words = plain_words(value);
     if (words.find_first_not_of("–, ") == std::string::npos) return;
     if (!group_.empty())
@@ -67,7 +67,7 @@ page::Text range_of(const Statistics& values, double factor, const char* unit) {
 }
 
 void add_accuracy(const RunSummary& summary, Results& results) {
-  // errors are judged by what the scene asks of each step
+  // errors are judged by the tolerance that the scene asks of each step
   const double tolerance = summary.facts.tolerance;
   const char* unit = error_unit(summary);
   results.group("Contact law");
@@ -81,7 +81,7 @@ void add_accuracy(const RunSummary& summary, Results& results) {
         "steps that missed the tolerance",
         page::quantity(
             100.0 * static_cast<double>(summary.missed) / static_cast<double>(summary.steps), "%"));
-  // these bounds are the vibrated box's: its grains' size, its drive
+  // these bounds are the vibrated box's: they suit the size of its grains and its drive
   const double known = summary.facts.has_packing ? 1.0 : not_known;
   results.group("Overlap");
   results.bounded("deepest of all steps", summary.penetration_max, known * target::penetration_max,
@@ -160,14 +160,14 @@ std::string readable(const nlohmann::ordered_json& value) {
   return text;
 }
 
-/// What the manifest says at "/group/name", as words; empty when it says nothing.
+/// The value in the manifest at "/group/name", as words; empty when there is none.
 std::string text_at(const RunData& data, const char* where) {
   const Json::json_pointer at(where);
   if (!data.manifest().contains(at) || data.manifest()[at].is_null()) return {};
   return readable(data.manifest()[at]);
 }
 
-/// The scene's title, else its name, else the folder's.
+/// The scene's title, else its name, else the folder's name.
 std::string name_of_run(const RunData& data) {
   if (data.scene && !data.scene->title.empty()) return data.scene->title;
   const auto scene = data.manifest().find("scene");
@@ -175,7 +175,7 @@ std::string name_of_run(const RunData& data) {
   return data.folder.filename().string();
 }
 
-/// The bodies in 3D; empty where no pose is stored, or none that can be read.
+/// The bodies in 3D; empty where no pose is stored, or none can be read.
 page::Replay replay_of_run(RunData& data) {
   try {
     if (const std::optional<ViewData> view = view_of_run(data)) return replay_of(*view);
@@ -207,7 +207,7 @@ page::Table periods_table(const RunSummary& summary) {
        {"period", "from\n(s)", "to\n(s)", "Δ*x*~max~\n(mm)", "contraction\n(mm)",
         "*v*~max~ in\n(mm/s)", "*v* out\n(mm/s)", "jammed\n(%)", "ρ,\nmean", "gain\nof ρ"})
     table.head.push_back(page::marked(head));
-  const size_t columns = summary.facts.has_packing ? 10 : 8;  // the last two are of the packing
+  const size_t columns = summary.facts.has_packing ? 10 : 8;  // the last two describe the packing
   table.is_number.assign(columns, true);
   double before = not_known;
   for (const WallPeriod& period : summary.wall.periods) {
@@ -258,7 +258,7 @@ std::string reproduce_commands(const RunData& data) {
   if (!commit.empty() && commit != "unknown")
     text += "# the program of commit " + commit + " made it\n";
   if (data.scene_text.empty()) return text;
-  // The resolved scene says everything; its name and the --set of the command line do not.
+  // The resolved scene has all settings; its name and the --set of the command line have not.
   const std::filesystem::path folder =
       std::filesystem::absolute(data.folder / "scene.toml").lexically_normal().parent_path();
   return text +
@@ -294,7 +294,7 @@ void write_report(const std::filesystem::path& folder) {
   motion.add(replay_of_run(data));
   figures.add(paper_figures(data, summary));
   diagnostics.add(diagnostic_figures(data, summary));
-  // What must be known first stands first.
+  // The most important notices come first.
   const std::vector<std::string> words = trust_words(summary);
   if (!is_clean(summary)) data.notices.insert(data.notices.begin(), words.begin(), words.end());
   if (const long all = data.scene ? data.scene->step_count() : 0; summary.steps < all)

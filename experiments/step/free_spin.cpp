@@ -1,5 +1,5 @@
-// Compiled with -fno-trapping-math (experiments/CMakeLists.txt): both sides of a choice are
-// computed, and the loops over bodies become vector instructions. No bit depends on it.
+// Compiled with -fno-trapping-math (experiments/CMakeLists.txt), so that both sides of a choice are
+// computed and the loops over bodies become vector instructions. The flag changes no bit.
 
 #include "experiments/step/free_spin.hpp"
 
@@ -12,10 +12,10 @@
 namespace ballast {
 namespace {
 
-/// Changes of less than this part of the spin are none.
+/// The iteration has converged when the spin changes by at most this fraction of it.
 constexpr double rounding = 1e-16;
 
-/// Bodies side by side: number k of each stands in place k of every array.
+/// Several bodies side by side: element k of every array belongs to body k of the block.
 struct SpinBlock {
   static constexpr int size = 8;
   alignas(64) double inertia[3][size];   ///< principal [kg m^2]
@@ -23,7 +23,7 @@ struct SpinBlock {
   double is_found[size];                 ///< 1: `after` is the solution; 0: not yet
 };
 
-/// The fixed-point iteration of free_spin() with its operations in their order.
+/// The fixed-point iteration of free_spin(), with the same operations in the same order.
 BALLAST_FOR_EACH_CPU void find_spins(SpinBlock& block, double h) {
   constexpr int most_iterations = 12;
   SpinBlock b = block;
@@ -68,12 +68,12 @@ BALLAST_FOR_EACH_CPU void find_spins(SpinBlock& block, double h) {
 }  // namespace
 
 Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
-  // Implicit mid-point rule for Euler's equations, I dw/dt = (I w) x w, by fixed-point iteration:
-  // it keeps the kinetic energy.
+  // Fixed-point iteration for the implicit mid-point rule of Euler's equations, I dw/dt = (I w) x
+  // w. The rule conserves the kinetic energy.
   const Vec3 inverse = inertia.cwiseInverse();
   Vec3 next = spin;
   double change = 0.0;
-  for (int iteration = 0; iteration < 50; ++iteration) {  // contracts by ~ h |w| / 2: a few times
+  for (int iteration = 0; iteration < 50; ++iteration) {  // contracts by ~ h |w| / 2: a few suffice
     // w' = w + h I^-1 ((I w_m) x w_m) with w_m = (w + w') / 2.
     const Vec3 mean = 0.5 * (spin + next);
     const Vec3 update = spin + h * inverse.cwiseProduct(inertia.cwiseProduct(mean).cross(mean));
@@ -82,7 +82,7 @@ Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
     if (change <= rounding * spin.norm()) return next;
   }
   if (change <= 1e-10 * spin.norm()) return next;
-  // From h |w| ~ 2 on that does not converge: two halves conserve both as well.
+  // The iteration diverges from h |w| ~ 2 on. Two half steps conserve energy and momentum as well.
   constexpr double most_radians = 1e3;
   if (!(h * spin.norm() < most_radians))
     return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());

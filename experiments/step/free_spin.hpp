@@ -1,5 +1,5 @@
 #pragma once
-// How a body that nothing touches turns on.
+// The rotation of a body that nothing touches.
 
 #include <span>
 
@@ -7,12 +7,12 @@
 
 namespace ballast {
 
-/// Angular velocity after a free flight of h, torque-free: implicit mid-point rule of Euler's
-/// equations in the body frame, which conserves energy and |angular momentum| exactly. `inertia`
-/// principal [kg m^2], `spin` body frame [rad/s]. NaN where h |spin| is above a thousand.
+/// Angular velocity after a torque-free flight of h: implicit mid-point rule of Euler's equations
+/// in the body frame, which conserves energy and |angular momentum| exactly. `inertia`: principal
+/// [kg m^2]; `spin`: body frame [rad/s]. NaN where h |spin| is above a thousand.
 Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h);
 
-/// The same of many bodies, each with the same bits. All spans have the same size.
+/// free_spin() of many bodies, each with the same bits. All spans have the same size.
 void free_spins(std::span<const Vec3> inertia, std::span<const Vec3> spin, double h,
                 std::span<Vec3> after);
 

@@ -7,7 +7,7 @@
 namespace ballast {
 namespace {
 
-/// What earlier solves of the same step cost is booked with the last one.
+/// Adds the cost of an earlier solve of the same step to that of the last one.
 void book(const SolverRun& earlier, SolverRun& run) {
   run.solved.iterations += earlier.solved.iterations;
   run.prepare_seconds += earlier.prepare_seconds;
@@ -27,8 +27,8 @@ void ImpactLaw::set_bias(FrictionProblem& problem, std::span<const double> rebou
   }
 }
 
-/// `v`: the bodies' velocities that the judge found. Afterwards the bias holds only the walls'
-/// part.
+/// Stores the impulses, error and contact velocities of a solve. `v`: the bodies' velocities that
+/// the judge found. Afterwards the bias holds only the walls' part.
 void ImpactLaw::measure(FrictionProblem& problem, const SolverRun& run, const Eigen::VectorXd& v,
                         Impact& impact) const {
   impact.r = run.solved.impulses;
@@ -37,15 +37,15 @@ void ImpactLaw::measure(FrictionProblem& problem, const SolverRun& run, const Ei
   body_to_contact_velocity(problem.dynamics, problem.row_begin, v, impact.u);
 }
 
-/// The factor by which the island's scale must fall, at most `most`; 1 where it takes enough
-/// energy.
+/// The factor, at most `most`, by which the island's e must be multiplied; 1 where the island takes
+/// enough energy.
 double ImpactLaw::lowering_factor(const FrictionProblem& problem, size_t island,
                                   double most) const {
-  // L_0 and L, and along r_0 + t (r - r_0): L(t) = L_0 - slope t - curvature t^2 / 2.
+  // L_0 and L; and along r_0 + t (r - r_0), L(t) = L_0 - slope t - curvature t^2 / 2.
   double inelastic = 0.0, rebounding = 0.0, slope = 0.0, curvature = 0.0, impulse = 0.0;
   int rows = 0;
-  // With delta = r - r_0 and W symmetric, r_0 . W delta = delta . (u_0 - u_free): that is why the
-  // slope needs delta . u_0 alone, and the curvature delta . (u - u_0).
+  // With delta = r - r_0 and W symmetric, r_0 . W delta = delta . (u_0 - u_free). Therefore the
+  // slope needs only delta . u_0, and the curvature only delta . (u - u_0).
   for (const int c : islands_[island])
     for (int row = problem.row_begin[c]; row < problem.row_begin[c + 1]; ++row) {
       const double r0 = inelastic_.r[row], r1 = rebounding_.r[row];
@@ -57,7 +57,7 @@ double ImpactLaw::lowering_factor(const FrictionProblem& problem, size_t island,
       impulse += r1 * r1 + r0 * r0;
       ++rows;
     }
-  // Energies are known to the solves' errors times the impulses.
+  // The energies are uncertain by the solves' errors times the impulses.
   const double error = inelastic_.error + rebounding_.error;
   const double known_to = 1e-9 * std::abs(inelastic) + error * std::sqrt(impulse * rows);
   const double e2 = e_[island] * e_[island];
@@ -68,10 +68,10 @@ double ImpactLaw::lowering_factor(const FrictionProblem& problem, size_t island,
   return std::clamp((root - slope) / curvature, 0.0, most);
 }
 
-/// True when some island's e fell: the whole problem must be solved again.
+/// Lowers e where an island gives back too much. True: some e fell, so another solve is needed.
 bool ImpactLaw::lower_restitution(const FrictionProblem& problem, int times, bool to_zero) {
-  // The root is exact while no contact opens or slides: what forces of order h make needs a factor
-  // of 1 - O(h) alone. Where that was not enough, it falls by a twentieth at least.
+  // The root is exact while no contact opens or slides. The effect of forces of order h needs only
+  // a factor of 1 - O(h). Where that was not enough, e falls by a twentieth at least.
   const double most = times == 1 ? 1.0 - 1e-6 : 0.95;
   bool fell = false;
   for (size_t i = 0; i < islands_.size(); ++i) {
@@ -92,8 +92,8 @@ SolverRun ImpactLaw::solve(SolverRunner& runner, Solver& solver, FrictionProblem
   least_ = highest_;
   if (std::none_of(rebound.begin(), rebound.end(), [](double x) { return x < 0.0; }))
     return runner.run(solver, problem, std::move(start), budget);
-  // The bias holds the walls' motion and Newton's e u_N-. The latter can be scaled island by
-  // island once it is known apart.
+  // The bias holds the walls' motion and Newton's e u_N-. They are separated because the latter is
+  // scaled island by island.
   newton_ = walls_ = problem.dynamics.bias;
   for (int c = 0; c < problem.contact_count(); ++c) walls_[problem.row_begin[c]] -= rebound[c];
   islands_ = contact_islands(problem);
@@ -102,12 +102,12 @@ SolverRun ImpactLaw::solve(SolverRunner& runner, Solver& solver, FrictionProblem
   for (size_t i = 0; i < islands_.size(); ++i)
     for (const int c : islands_[i]) e_[i] = std::max(e_[i], restitution[c]);
 
-  // The inelastic impact, for what it takes.
+  // The inelastic impact gives L_0, the energy that it takes.
   problem.dynamics.bias = walls_;
   SolverRun earlier = runner.run(solver, problem, start, budget);
   measure(problem, earlier, runner.body_velocity(), inelastic_);
   body_to_contact_velocity(problem.dynamics, problem.row_begin, problem.dynamics.v_free, u_free_);
-  // Newton's law, then with lower e where it gives too much back.
+  // Newton's law, solved again with a lower e where an island gives back too much.
   set_bias(problem, rebound);
   SolverRun run = runner.run(solver, problem, std::move(start), budget);
   book(earlier, run);

@@ -25,7 +25,7 @@ OverlapCorrection::OverlapCorrection(const MechanicalSystem& system, const Corre
   displacement_.setZero(static_cast<Eigen::Index>(inverse_mass_.size()));
 }
 
-/// 1 / (H_N M^-1 H_N^T) of a contact; zero where nothing of it can be displaced.
+/// 1 / (H_N M^-1 H_N^T) of a contact; zero where neither of its bodies can be displaced.
 double OverlapCorrection::stiffness_of(const FrictionProblem& problem, int c) const {
   double compliance = 0.0;
   for_normal_row(problem, c,
@@ -48,8 +48,8 @@ void OverlapCorrection::find_targets(WorkerTeam* team, const ProblemAssembler& a
       const ContactPoint& contact = contacts[assembler.detected()[c]];
       const double walls = imposed.size() > 0 ? imposed[problem.row_begin[c]] : 0.0;
       const double next_gap = contact.gap + h * (normal_velocity(problem, c, v) + walls);
-      // a fraction of the overlap goes; a point that is open or within the slop may close to the
-      // slop, no further
+      // A fraction of the overlap is removed. A point that is open or within the slop may close to
+      // the slop, no further.
       const double wanted =
           tolerated + (1.0 - spec_.fraction) * std::min(0.0, next_gap - tolerated);
       rows_[c] = {wanted - next_gap, -1.0, 0.0};
@@ -60,14 +60,14 @@ void OverlapCorrection::find_targets(WorkerTeam* team, const ProblemAssembler& a
 double OverlapCorrection::apply(const ProblemAssembler& assembler, MotionState& state) {
   if (rows_.empty()) return 0.0;
   const FrictionProblem& problem = assembler.problem();
-  // Projected Gauss-Seidel on displacements: pushes only push (>= 0), heavy bodies move less.
+  // Projected Gauss-Seidel on displacements: pushes are never negative, and heavy bodies move less.
   displacement_.setZero();
   is_displaced_.assign(problem.dynamics.body_count(), 0);
   const auto displaced = [this](int body) { return body >= 0 && is_displaced_[body]; };
   for (int sweep = 0; sweep < spec_.sweeps; ++sweep) {
     for (int c = 0; c < problem.contact_count(); ++c) {
       Row& row = rows_[c];
-      // Of most points nothing is asked, and no neighbour has come nearer.
+      // Most points are skipped: nothing is asked of them and neither of their bodies is displaced.
       const int a = problem.dynamics.body_a[c], b = problem.dynamics.body_b[c];
       if (row.target <= 0.0 && !displaced(a) && !displaced(b)) continue;
       if (row.stiffness < 0.0) row.stiffness = stiffness_of(problem, c);
@@ -75,7 +75,7 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, MotionState& 
       for_normal_row(problem, c, [&](int dof, double coefficient) {
         moved += coefficient * displacement_[dof];
       });
-      // The push with which this row would move just as far as it is asked to, the others held.
+      // The push that moves this row exactly to its target while the other pushes are held.
       const double push = std::max(0.0, row.push + (row.target - moved) * row.stiffness);
       const double change = push - row.push;
       if (change == 0.0) continue;
@@ -88,7 +88,7 @@ double OverlapCorrection::apply(const ProblemAssembler& assembler, MotionState& 
     }
   }
 
-  // The poses follow; lifting a body against gravity is energy that the books must know of.
+  // Moves the poses. Lifting a body against gravity adds energy, which the energy balance needs.
   double potential = 0.0;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
     const int first = assembler.first_dof(static_cast<int>(b));

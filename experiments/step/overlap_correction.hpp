@@ -1,17 +1,17 @@
 #pragma once
-// Overlap correction by displacements: grains in overlap are moved apart after the step, velocities
-// untouched.
+// Overlap correction by displacements: overlapping grains are moved apart after the step;
+// velocities are untouched.
 //
 // Velocity-level contact keeps u_N >= 0 but never removes an overlap once it is there (curvature of
 // the motion, changes of normal, the solver's residual). The correction solves, after the step and
 // only roughly, the frictionless problem
 //
 //   min 1/2 d^T M d   subject to, at each contact c,
-//   gap_c + h u_N,c + H_N,c d  >=  -slop - (1 - fraction) * max(0, -gap_c - slop)
+//   g_c + H_N,c d  >=  -slop - (1 - fraction) * max(0, -g_c - slop),   g_c = gap_c + h u_N,c,
 //
 // for small displacements d of the grains (unknowns of driven walls are locked), by a few
-// warm-started Gauss-Seidel sweeps, and moves the poses by d. It adds no kinetic energy and doesn't
-// move a wall; what it does to the potential energy is recorded.
+// Gauss-Seidel sweeps from d = 0, and moves the poses by d. It adds no kinetic energy and doesn't
+// move a wall. The change of the potential energy is recorded.
 
 #include <span>
 #include <vector>
@@ -25,12 +25,12 @@ class OverlapCorrection {
  public:
   OverlapCorrection(const MechanicalSystem& system, const CorrectionSpec& spec);
 
-  /// How far each contact's bodies must be moved apart. `contacts`, `assembler`: of this step; `v`:
-  /// unknowns at its end; `h` its length. The team shares the work.
+  /// Finds how far the bodies of each contact must be moved apart. `contacts` and `assembler` are
+  /// of this step, `v` holds the unknowns at its end, `h` is its length. The team shares the work.
   void find_targets(WorkerTeam* team, const ProblemAssembler& assembler,
                     std::span<const ContactPoint> contacts, const Eigen::VectorXd& v, double h);
-  /// Displaces `state`'s poses by what find_targets() found. Returns the potential energy that the
-  /// displacements gave [J] (negative: they lowered it).
+  /// Displaces the poses of `state` as find_targets() asks. Returns the change of potential energy
+  /// by the displacements [J] (negative: they lowered it).
   double apply(const ProblemAssembler& assembler, MotionState& state);
 
  private:
@@ -41,9 +41,9 @@ class OverlapCorrection {
   std::vector<double> inverse_mass_;  // per unknown; 0 for driven walls
   Eigen::VectorXd displacement_;
   std::vector<char> is_displaced_;  // per body of the problem
-  /// Of each contact of the problem; none where nothing overlaps.
+  /// One row per contact of the problem; no rows where nothing overlaps by more than the slop.
   struct Row {
-    double target;     // least H_N d [m]
+    double target;     // least H_N d that is asked for [m]
     double stiffness;  // 1 / (H_N M^-1 H_N^T); negative: not yet computed
     double push;       // accumulated multiplier [kg m]
   };

@@ -1,9 +1,8 @@
 #pragma once
-// What every step leaves behind: one row of named scalars, and what the next step begins with. The
-// table of columns is the one source
-// of names, units and descriptions for CSV, HDF5 and the pages; it also says which columns are wall
-// clock of a phase of the step. A new column is a member here, a row in the table, and the place
-// where it is measured.
+// The results of a step: one row of named scalars, and the memory from which the next step begins.
+// The table of columns is the only source of names, units and descriptions for CSV, HDF5 and the
+// pages; it also says which columns are the wall clock of a phase of the step. A new column needs a
+// member here, a row in the table, and the code that measures it.
 
 #include <filesystem>
 #include <span>
@@ -37,8 +36,8 @@ struct StepColumn {
   const char* unit;
   const char* description;
   double StepRecord::*value;
-  /// Wall clock of a phase of the step: the phase in words for a page. The phases add up to the
-  /// step. nullptr: the column is no phase.
+  /// The name of the phase on a page, where the column is the wall clock of a phase of the step;
+  /// nullptr elsewhere. The phases add up to the step.
   const char* phase = nullptr;
 
   /// A phase's name in one word: the column's name without "seconds_".
@@ -50,19 +49,19 @@ std::span<const StepColumn> step_columns();
 /// The columns that are phases, in the order of the step.
 std::span<const StepColumn> step_phases();
 
-/// Wall clock of a step: all its phases [s].
+/// The wall clock of a step: the sum of its phases [s].
 double step_seconds(const StepRecord& step);
 
-/// A line of names and one of each step, in 17 digits, which bring back the same bits. Written
-/// beside and renamed. Throws Error.
+/// Writes a line of names and one line per step, in 17 digits, so that the same bits can be read
+/// back. The file is written beside its target and renamed. Throws Error.
 void write_steps_csv(const std::filesystem::path& file, std::span<const StepRecord> steps);
 
-/// One entry per step, times `factor` (from SI to what a figure shows).
+/// One value per step, times `factor` (from SI to the unit of a figure).
 std::vector<double> record_column(std::span<const StepRecord> steps, double StepRecord::*value,
                                   double factor = 1.0);
 
-/// Warm start and contacts of the last step: with the MotionState, all that the next step depends
-/// on.
+/// The warm start and contacts of the last step. With the MotionState, they are all that the next
+/// step depends on.
 struct StepMemory {
   std::vector<ContactPoint> contacts;  ///< sorted by (body_a, body_b, feature)
   std::vector<Vec3> impulses;          ///< on body b, world frame [N s]

@@ -6,9 +6,9 @@
 //   M (v_{k+1} - v_k) = h f(t_m) + H^T r    with Signorini-Coulomb's law between r and u_{k+1}
 //   q_{k+1} = q_m + h/2 v_{k+1}
 //
-// Mid-points follow one another at distance h v_{k+1}, so bias_N = gap/h closes an open gap
-// exactly, to first order in the rotation. The mean velocity (v_k + v_{k+1})/2 balances work and
-// energy exactly: what is left is recorded.
+// Successive mid-points are h v_{k+1} apart, so bias_N = gap/h closes an open gap exactly, to
+// first order in the rotation. With the mean velocity (v_k + v_{k+1})/2 work and energy balance
+// exactly; the residual is recorded.
 
 #include <algorithm>
 #include <memory>
@@ -30,38 +30,37 @@ double velocity_scale(const Scene& scene);
 /// Throws Error naming time [s] and solver where the impulses are not finite: no step can follow.
 void require_finite(const SolverRun& run, const std::string& solver, double time);
 
-/// Steps one system. Holds no state of the motion: that is the caller's MotionState and StepMemory.
+/// Steps one system. Its motion is held by the caller, in a MotionState and a StepMemory.
 class TimeStepper {
  public:
-  /// Of the scene only step, solver, detection and correction count. `driven_wall`: whose motion
-  /// and load the record reports (-1: none). Throws UnknownSolver, MissingSolver.
+  /// Reads step, gravity, solver, detection, correction and bodies' sizes of the scene.
+  /// `driven_wall`: the wall that the record reports (-1: none). Throws UnknownSolver,
+  /// MissingSolver.
   TimeStepper(const MechanicalSystem& system, const Scene& scene, int driven_wall);
 
-  /// Advances state by h. Throws InvalidProblem when the state has become NaN or infinite, and
-  /// Error where a body spins too fast for h; it is then left within the step.
+  /// Advances `state` by h. Throws InvalidProblem when the state has become NaN or infinite, and
+  /// Error where a body spins too fast for h; the state is then left in the middle of the step.
   StepRecord step(MotionState& state, StepMemory& memory);
 
-  /// The problem solved last and its solution, for capture and export. StepMemory has the contacts
-  /// that it came from.
+  /// The last problem and its solution, for capture and export. StepMemory has its contacts.
   const FrictionProblem& problem() const { return assembler_.problem(); }
   const Impulses& impulses() const { return impulses_; }
   const ProblemAssembler& assembler() const { return assembler_; }
-  /// The impulses from which its solution was begun, rows as in the problem. `memory`: of that
-  /// step.
+  /// The impulses from which its solve started, in the rows of the problem. `memory`: of that step.
   void warm_start(const StepMemory& memory, Impulses& rows) const {
     assembler_.to_rows(carried_, memory.contacts, rows);
   }
   const DetectionCounters& detection_counters() const { return detector_.counters(); }
-  /// For what is done between steps; null: there is one thread.
+  /// The team, for work between steps; null: there is one thread.
   WorkerTeam* team() const { return team_.get(); }
 
  private:
-  /// Calls task(body) for all, shared among the team.
+  /// Calls task(body) for every body; the team shares the work.
   template <typename Task>
   void for_bodies(const Task& task) {
     run_each(team_.get(), static_cast<int>(system_.bodies.size()), /*together=*/64, task);
   }
-  /// Written where the problem has them.
+  /// The free velocities, which are stored in the problem.
   Eigen::VectorXd& v_free() { return assembler_.problem().dynamics.v_free; }
   void free_motion(int b, const MotionState& state, double mid_time);
   void begin_problem(const MotionState& state, const StepMemory& memory, double mid_time);
@@ -87,12 +86,12 @@ class TimeStepper {
   ImpactLaw impact_law_;
 
   Impulses impulses_;
-  // Of each body, apart from what else is known of it: less memory to read.
+  // Per body, stored apart from the bodies so that less memory is read.
   std::vector<double> radius_;
-  std::vector<Vec3> inertia_, spin_after_;  ///< `spin_after_`: of a free flight
+  std::vector<Vec3> inertia_, spin_after_;  ///< `spin_after_`: after a free flight
   std::vector<double> reach_;
-  const bool some_shape_is_fixed_;  ///< then bodies may pass its edges
-  std::vector<Pose> ahead_;         ///< at the next detection if nothing is met
+  const bool some_shape_is_fixed_;  ///< then bodies may pass edges that would not stop them
+  std::vector<Pose> ahead_;         ///< poses at the next detection if nothing is met
   std::vector<ContactPoint> old_contacts_;
   std::vector<Vec3> carried_;
   Eigen::VectorXd v_before_;

@@ -18,15 +18,15 @@ namespace {
 using Colour = Eigen::Array3f;
 using Box = Eigen::AlignedBox3d;
 
-constexpr int finer = 2;           // so many rows and columns are drawn for each of the picture's
-constexpr int shadow_size = 1400;  // pixels of the sun's own picture
-constexpr double lens_angle = 28.0 * std::numbers::pi / 180.0;  // angle that the height spans
+constexpr int finer = 2;           // rows and columns drawn for each one of the picture
+constexpr int shadow_size = 1400;  // rows and columns of the shadow map, the sun's picture
+constexpr double lens_angle = 28.0 * std::numbers::pi / 180.0;  // angle that the height spans [rad]
 
 const Vec3 sun = Vec3(0.42, -0.5, 0.76).normalized();
 const Colour paper_white(0.98f, 0.98f, 0.96f), blue(0.0f, 0.168f, 0.445f),
     grey(0.18f, 0.18f, 0.17f), vermilion(0.665f, 0.112f, 0.0f);
 
-/// Light at rest to dark at the top, as the page's ramp; `share` from 0 to 1.
+/// The page's colour ramp: light at rest (share 0), dark at the top (share 1).
 Colour ramp_colour(double share) {
   static const Colour stops[] = {{0.79f, 0.72f, 0.58f}, {0.86f, 0.45f, 0.12f},
                                  {0.80f, 0.17f, 0.05f}, {0.56f, 0.05f, 0.10f},
@@ -36,8 +36,8 @@ Colour ramp_colour(double share) {
   return stops[k] + (stops[k + 1] - stops[k]) * static_cast<float>(at - static_cast<double>(k));
 }
 
-/// A pinhole or, far away, the sun: from the world to column, row and depth. Depth is linear in the
-/// picture and grows with the distance.
+/// A pinhole camera or, far away, the sun. It maps the world to column, row and depth. Depth is
+/// linear in the picture and grows with the distance.
 struct Lens {
   Mat3 axes;  // rows: right, up, back
   Vec3 eye;
@@ -51,7 +51,7 @@ struct Lens {
     return {0.5 * width + scale * seen.x() / w, 0.5 * height - scale * seen.y() / w,
             is_far ? -seen.z() : -1.0 / w};
   }
-  /// The point that a pinhole sees in the middle of a pixel.
+  /// The point that a pinhole camera sees in the middle of a pixel.
   Vec3 point(int x, int y, float depth) const {
     const double w = -1.0 / static_cast<double>(depth);
     const Vec3 seen((x + 0.5 - 0.5 * width) * w / scale, (0.5 * height - y - 0.5) * w / scale, -w);
@@ -86,7 +86,7 @@ void scan(const Lens& lens, const std::vector<Vec3>& corners, Visit&& visit) {
               y1 = std::min(lens.height - 1, static_cast<int>(std::floor(high.y() - 0.5)));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
-        // the pixel's middle in shares of the corners
+        // barycentric coordinates of the pixel's middle
         const double px = x + 0.5, py = y + 0.5;
         const double u = ((b.x() - px) * (c.y() - py) - (b.y() - py) * (c.x() - px)) / area;
         const double v = ((c.x() - px) * (a.y() - py) - (c.y() - py) * (a.x() - px)) / area;
@@ -113,8 +113,8 @@ void for_faces(const ViewData& view, const MotionState& frame, Use&& use) {
   }
 }
 
-/// The box that all is in, over all frames: walls along the axes where there are some, else the
-/// grains.
+/// The box around all bodies over all frames. Walls normal to the axes bound it where there are
+/// some, else the grains.
 Box box_of(const ViewData& view) {
   Box grains;
   double largest = 0.0;
@@ -134,7 +134,7 @@ Box box_of(const ViewData& view) {
       if (std::abs(side) < 0.999) continue;
       std::vector<double> places;
       for (const MotionState& frame : view.frames) places.push_back(frame.pose[b].position[k]);
-      // a lid far above what it closes is not part of the picture
+      // keeps a lid far above the grains out of the picture
       const auto [low, high] = std::minmax_element(places.begin(), places.end());
       if (side > 0.0)
         box.min()[k] = std::max(*low, grains.min()[k] - 2.0 * largest);
@@ -144,14 +144,14 @@ Box box_of(const ViewData& view) {
   return box;
 }
 
-/// The part of a plane within a box, corner by corner; fewer than three: none.
+/// The corners, in turn, of the part of a plane within a box; fewer than three: no part.
 std::vector<Vec3> plane_in_box(const Vec3& point, const Vec3& normal, const Box& box) {
   const Vec3 side = normal.unitOrthogonal(), other = normal.cross(side);
   const double wide = 4.0 * box.diagonal().norm() + (point - box.min()).norm();
   std::vector<Vec3> loop{point + wide * (side + other), point + wide * (other - side),
                          point - wide * (side + other), point + wide * (side - other)};
-  // cut off what is outside of each side in turn (Sutherland and Hodgman 1974); the box is a hair
-  // wider, so that its own walls stay in
+  // clips the loop at each side in turn (Sutherland and Hodgman 1974); the box is a hair wider, so
+  // that its own walls stay in
   for (int k = 0; k < 6; ++k) {
     const double sign = k < 3 ? 1.0 : -1.0, bound = k < 3 ? box.max()[k] : -box.min()[k - 3];
     const auto room = [&](const Vec3& p) { return bound + 1e-6 * wide - sign * p[k % 3]; };
@@ -173,8 +173,8 @@ struct Rod {
   Colour colour;
 };
 
-/// One rod between the centres of two bodies that push on each other, with its force. A wall's end
-/// is where it is touched. Of a frame before the first step: the next one's.
+/// Returns one rod between the centres of each two touching bodies, with its normal force. At a
+/// wall it ends at a contact. A frame before the first step has the rods of the next frame.
 std::vector<std::pair<Rod, double>> chains_in(const ViewData& view, size_t frame) {
   std::vector<FrameContact> contacts = view.contacts(frame);
   if (contacts.empty() && frame == 0 && view.frames.size() > 1) contacts = view.contacts(frame = 1);
@@ -194,7 +194,7 @@ std::vector<std::pair<Rod, double>> chains_in(const ViewData& view, size_t frame
   return chains;
 }
 
-/// Takes pictures of one view, all alike.
+/// Takes pictures of one view, all with the same lens and scales.
 class Camera {
  public:
   Camera(const ViewData& view, const StillOptions& options)
@@ -218,7 +218,7 @@ class Camera {
       for (int g = 0; g < view.system.grain_count; ++g)
         top_value_ = std::max(top_value_, value_of(f, g));
     if (!options.with_chains) return;
-    // what nearly all chains of some frames stay below
+    // the force that 99.5 % of the chains of some frames do not exceed
     std::vector<double> forces;
     const size_t count = view.frames.size();
     for (size_t f = 0; f < count; f += std::max<size_t>(1, count / 10))
@@ -228,11 +228,11 @@ class Camera {
     if (top > 0.0) top_force_ = top;
   }
 
-  /// Red, green and blue as sRGB bytes, row after row from the top.
+  /// Returns a picture: red, green and blue as sRGB bytes, row after row from the top.
   std::string take(size_t frame) {
     depth_.assign(lens_.size(), std::numeric_limits<float>::infinity());
     pixels_.assign(lens_.size(), paper_white);
-    if (!options_.with_chains) draw_solid(frame);  // else nothing hides what is within
+    if (!options_.with_chains) draw_solid(frame);  // it would hide the chains
     draw_walls(frame);
     if (options_.with_chains) {
       draw_chains(frame);
@@ -245,7 +245,7 @@ class Camera {
  private:
   double radius() const { return 0.5 * box_.diagonal().norm(); }
 
-  /// What a grain is coloured by: its speed, with fine steps near rest; in a single frame its size.
+  /// A grain's colour value: the root of its speed, fine near rest; in a single frame its size.
   double value_of(size_t f, int g) const {
     return view_.frames.size() > 1 ? std::sqrt(view_.frames[f].velocity[g].norm())
                                    : std::cbrt(view_.system.bodies[g].volume);
@@ -261,7 +261,7 @@ class Camera {
         shadow[sunlight_.at(x, y)] = std::min(shadow[sunlight_.at(x, y)], depth);
       });
     });
-    std::vector<int> owner(lens_.size(), 0);  // which face is seen
+    std::vector<int> owner(lens_.size(), 0);  // number of the visible face; 0: none
     int number = 0;
     for_faces(view_, view_.frames[frame], [&](int grain, const Vec3& normal, const auto& corners) {
       ++number;
@@ -285,7 +285,7 @@ class Camera {
       }
   }
 
-  /// How bright a place is that the sun sees there, or does not.
+  /// The brightness of a place, given in the sun's picture: lit by the sun or in the shadow.
   float light_at(const Vec3& from_sun, const Vec3& normal, const std::vector<float>& shadow) const {
     const int x = static_cast<int>(from_sun.x()), y = static_cast<int>(from_sun.y());
     const bool is_lit = x < 0 || y < 0 || x >= shadow_size || y >= shadow_size ||
@@ -294,7 +294,7 @@ class Camera {
     return static_cast<float>(0.80 * direct + 0.42 * (0.54 + 0.46 * normal.z()) + 0.12);
   }
 
-  /// Bodies as glass: each face that looks at the eye is a veil over what is behind it.
+  /// Draws bodies as glass: each face towards the eye blends with the picture behind it.
   void draw_glass(size_t frame) {
     for_faces(view_, view_.frames[frame], [&](int grain, const Vec3& normal, const auto& corners) {
       const double facing = normal.dot((lens_.eye - corners[0]).normalized());
@@ -311,7 +311,7 @@ class Camera {
     });
   }
 
-  /// Calls use(corners, inward normal, is it the driven one) for every wall in the picture.
+  /// Calls use(corners, inward normal, is_driven) for every wall in the picture.
   template <class Use>
   void for_walls(size_t frame, Use&& use) const {
     for (auto b = static_cast<size_t>(view_.system.grain_count); b < view_.system.bodies.size();
@@ -330,9 +330,9 @@ class Camera {
     });
   }
 
-  /// Edges of walls, and the load on the driven one as an arrow as long as it is large.
+  /// Draws the edges of walls, and the load on the driven wall as an arrow that grows with it.
   void draw_walls(size_t frame) {
-    // its last value before the frame, over its largest
+    // the load's last value up to the frame, over its largest
     double load = 0.0;
     const std::vector<double>& times = view_.series_time;
     const long row = std::ranges::upper_bound(times, view_.frames[frame].time) - times.begin();
@@ -357,7 +357,7 @@ class Camera {
     });
   }
 
-  /// Those above the mean force, as wide as the force is large.
+  /// Draws the chains above the mean force; their width grows with the force.
   void draw_chains(size_t frame) {
     double mean = 0.0, reach = 0.0;
     const auto chains = chains_in(view_, frame);
@@ -394,7 +394,7 @@ class Camera {
         const size_t here = lens_.at(x, y);
         if (away > radius || depth >= depth_[here]) continue;
         depth_[here] = depth;
-        // round, lit from where the eye is
+        // the rod is round, and lit from the eye
         const double height = std::sqrt(1.0 - away * away / (radius * radius));
         pixels_[here] = rod.colour * static_cast<float>(radius < 3.0 ? 1.0 : 0.55 + 0.45 * height);
       }
@@ -425,7 +425,7 @@ class Camera {
   std::vector<Colour> pixels_;
 };
 
-/// Most significant byte first, as PNG has its numbers.
+/// Numbers as in PNG: four bytes, the most significant first.
 std::string png_numbers(std::initializer_list<size_t> values) {
   std::string bytes;
   for (const size_t value : values)
@@ -433,7 +433,7 @@ std::string png_numbers(std::initializer_list<size_t> values) {
   return bytes;
 }
 
-/// Length, name, content, check sum.
+/// A PNG chunk: length, name, content, check sum.
 std::string png_chunk(const std::string& name, const std::string& content) {
   return png_numbers({content.size()}) + name + content + png_numbers({crc32_of(name + content)});
 }
@@ -464,13 +464,13 @@ std::string still_png(const ViewData& view, const std::vector<size_t>& frames,
                     png_chunk("IHDR", png_numbers({width, height}) + std::string("\x8\2\0\0\0", 5));
   const bool moves = frames.size() > 1;
   if (moves) png += png_chunk("acTL", png_numbers({frames.size(), 0}));  // played for ever
-  size_t number = 0;  // runs through fcTL and fdAT together
+  size_t number = 0;  // counts the fcTL and fdAT chunks together
   for (const size_t frame : frames) {
-    // size, place, seconds as a fraction; it replaces what was there
+    // size, place, seconds as a fraction; the frame replaces the one before
     if (moves)
       png += png_chunk("fcTL", png_numbers({number++, width, height, 0, 0}) +
                                    std::string("\0\x64\3\xe8\0\0", 6));
-    // each row as its difference from the one above
+    // each row as its difference from the row above
     const std::string bytes = camera.take(frame);
     std::string rows;
     for (size_t at = 0; at < bytes.size(); ++at) {

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t most_rows = 6000;  // of the curves: more than a screen has columns
+constexpr size_t most_rows = 6000;  // of a curve: more than a screen has columns
 
 void add_curves(const RunData& run, ViewData& view) {
   const size_t stride = (run.steps.size() + most_rows - 1) / most_rows;
@@ -56,10 +56,10 @@ void add_curves(const RunData& run, ViewData& view) {
   }
 }
 
-/// What the contacts and the mass block of one body tell.
+/// One body, as far as its contacts and its mass block tell.
 struct KnownBody {
-  std::vector<Vec3> points, normals;  ///< of its contacts; out of the body
-  double mass = 0.0;                  ///< [kg]; 0: it does not turn
+  std::vector<Vec3> points, normals;  ///< of its contacts; normals out of the body
+  double mass = 0.0;                  ///< [kg]; 0: the body does not rotate
 
   bool is_plane() const {
     return mass == 0.0 && std::all_of(normals.begin(), normals.end(), [&](const Vec3& normal) {
@@ -75,7 +75,7 @@ std::map<int, KnownBody> known_bodies(const CapturedProblem& captured) {
     for (const bool is_b : {false, true}) {
       const auto k = static_cast<size_t>(c);
       KnownBody& known = bodies[is_b ? captured.id_b[k] : captured.id_a[k]];
-      // a body turns when it has six unknowns
+      // a body rotates when it has six unknowns
       const int body = is_b ? dynamics.body_b[k] : dynamics.body_a[k];
       if (dynamics.body_dofs(body) == 6) known.mass = dynamics.mass[dynamics.mass_begin[body]];
       const Vec3 normal(captured.frame.data() + 9 * k);
@@ -85,7 +85,7 @@ std::map<int, KnownBody> known_bodies(const CapturedProblem& captured) {
   return bodies;
 }
 
-/// The hull of a body's contact points, and of a ball in their middle that keeps it from being
+/// The hull of a body's contact points and of a ball in their middle, which keeps it from being
 /// flat.
 BodySpec hull_of(const KnownBody& known, int id) {
   BodySpec body;
@@ -105,15 +105,15 @@ BodySpec hull_of(const KnownBody& known, int id) {
   return body;
 }
 
-/// The bodies of a captured problem without the run that it is from: hulls, as far as its contacts
-/// tell. What does not turn is a wall where all its contacts have one normal. `contacts`: the
-/// problem's own; the view has them by its own bodies.
+/// The bodies of a captured problem without its run: hulls of their contact points. A body that
+/// does not rotate is a wall if all its contacts have one normal. `contacts` number the bodies as
+/// the problem does; in the view they have the view's numbers.
 ViewData bodies_of_problem(const CapturedProblem& captured, std::vector<FrameContact> contacts) {
   const std::map<int, KnownBody> bodies = known_bodies(captured);
   ViewData view;
   view.has_shapes = false;
   MotionState state;
-  std::map<int, int> place;  // of a body of the problem in the view
+  std::map<int, int> place;  // in the view, of a body of the problem
   // walls come last
   for (const bool are_walls : {false, true})
     for (const auto& [id, known] : bodies) {
@@ -142,7 +142,7 @@ ViewData bodies_of_problem(const CapturedProblem& captured, std::vector<FrameCon
   return view;
 }
 
-/// The contacts as they were, with the forces of the run's own answer.
+/// The contacts of the captured step, with the forces of the run's own answer.
 std::vector<FrameContact> contacts_of(const CapturedProblem& captured) {
   std::vector<FrameContact> contacts;
   for (int c = 0; c < captured.problem.contact_count(); ++c) {
@@ -170,7 +170,7 @@ ViewErrors errors_of(const CapturedProblem& captured, const std::string& backend
   const auto solver = make_solver(backend);
   SolverRunner runner;
   for (const int iterations : errors.iterations) {
-    // a tolerance that nobody reaches: the budget alone ends a solve
+    // a tolerance that no backend reaches: the budget alone ends a solve
     const Budget budget{.tolerance = 1e-14 * captured.velocity_scale(),
                         .max_iterations = iterations};
     const SolverRun run = runner.run(*solver, captured.problem,
@@ -183,8 +183,8 @@ ViewErrors errors_of(const CapturedProblem& captured, const std::string& backend
   return errors;
 }
 
-/// The bodies of the run in `folder`, at the frame nearest to a problem's time; nothing where that
-/// is not the run that the problem is from.
+/// The bodies of the run in `folder`, at the frame nearest to a problem's time; nothing where the
+/// problem is not from a run there.
 std::optional<ViewData> view_in_run(const fs::path& folder, const CapturedProblem& captured) {
   if (!is_there(folder / "record.h5")) return std::nullopt;
   ViewData view;
@@ -251,7 +251,7 @@ ViewData view_of_scene(const Scene& scene, const fs::path& packing_cache) {
 }
 
 ViewData view_of_mesh(const fs::path& file) {
-  constexpr double stone = 2700.0;  // density of a mesh that says none [kg/m^3]
+  constexpr double stone = 2700.0;  // density of a mesh, whose file has none [kg/m^3]
   const PrincipalShape grain = to_principal_frame(read_mesh(file));
   BodySpec body;
   body.name = file.stem().string();

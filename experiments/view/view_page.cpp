@@ -21,7 +21,7 @@ using Words = std::vector<std::uint16_t>;
 using Bytes = std::vector<std::uint8_t>;
 using Floats = std::vector<float>;
 
-/// The bytes of numbers: all first (lowest) ones, then all second ones and so on, because
+/// The bytes of numbers: all lowest bytes, then all second bytes and so on, because the bytes of
 /// neighbours are alike.
 template <class Number>
 std::string text_of(const std::vector<Number>& values) {
@@ -34,8 +34,8 @@ std::string text_of(const std::vector<Number>& values) {
 
 /// A history holds frames of equally many columns, values[frame * columns + column]. Its bytes are
 /// the differences in time of every column, one column after the other, as zigzag numbers (0, -1,
-/// 1, -2, ...): mostly zeros, which deflate packs well. `order`: differences of differences of ...
-/// (1 or 2). Modulo 2^16 or 2^8: nothing overflows.
+/// 1, -2, ...): mostly zeros, which deflate packs well. With `order` 2 they are differences of
+/// differences, with 1 differences. They are modulo 2^16 or 2^8, so nothing overflows.
 template <class Word>
 std::string history_of(const std::vector<Word>& values, size_t columns, int order) {
   std::vector<Word> codes;
@@ -61,13 +61,13 @@ std::uint16_t in_16_bits(double value, double low, double span) {
   return static_cast<std::uint16_t>(std::lround(share * 65535.0));
 }
 
-/// -1 .. 1 in 8 bits (0 is 128), with a root's steps: fine near 0.
+/// Maps -1 .. 1 to 8 bits (0 is 128) by a root, with fine steps near 0.
 std::uint8_t signed_root(double value) {
   const double root = std::copysign(std::sqrt(std::min(std::abs(value), 1.0)), value);
   return static_cast<std::uint8_t>(128 + std::lround(127.0 * root));
 }
 
-/// What a replay of these bytes takes in the page.
+/// The bytes that the parts of a replay from `first_part` on take in the page.
 size_t page_bytes(const page::Replay& replay, size_t first_part = 0) {
   size_t bytes = 0;
   for (size_t k = first_part; k < replay.parts.size(); ++k)
@@ -100,8 +100,8 @@ struct DrawnShape {
   }
 };
 
-/// Of each shape how many corners and faces it has, the faces as loops of corner numbers, each
-/// after its length, and the corners over the largest coordinate of all.
+/// Packs for each shape the numbers of corners and faces, the faces as loops of corner numbers,
+/// each after its length, and the corners over the largest coordinate of all shapes.
 void pack_shapes(const ViewData& view, Json& head, page::Replay& replay) {
   std::map<const Polyhedron*, size_t> place;
   std::vector<DrawnShape> shapes;
@@ -141,8 +141,8 @@ void pack_shapes(const ViewData& view, Json& head, page::Replay& replay) {
   replay.parts.emplace_back("grains", text_of(grains));
 }
 
-/// Where grains are and how fast, at the frames of these numbers. A quaternion keeps the sign that
-/// brings it near the one before.
+/// Packs positions, rotations and velocities of the grains in the chosen frames. A quaternion has
+/// the sign that brings it near the one before.
 void pack_poses(const ViewData& view, const std::vector<size_t>& chosen, Json& head,
                 page::Replay& replay) {
   const auto grains = static_cast<size_t>(view.system.grain_count);
@@ -182,8 +182,8 @@ void pack_poses(const ViewData& view, const std::vector<size_t>& chosen, Json& h
   replay.parts.emplace_back("velocities", history_of(velocities, 3 * grains, 1));
 }
 
-/// How many periods each grain has gone on since the first frame, by the least ways between all
-/// frames; nothing where the world does not repeat itself.
+/// Packs how many periods each grain has passed since the first frame, counted by the least ways
+/// between all frames; nothing in a world without a period.
 void pack_laps(const ViewData& view, const std::vector<size_t>& chosen, Json& head,
                page::Replay& replay) {
   const Vec3& period = view.system.period.vector;
@@ -219,8 +219,8 @@ void pack_walls(const ViewData& view, const std::vector<size_t>& chosen, Json& h
   replay.parts.emplace_back("walls", text_of(values));
 }
 
-/// The contacts of every `stride`-th of the chosen frames: forces as roots in 12 bits, the share of
-/// friction that is used, and places from the centre of grain a, over that grain's circumradius.
+/// Packs the contacts of every `stride`-th of the chosen frames: forces as roots in 12 bits, the
+/// share of friction that is used, and places from grain a's centre over its circumradius.
 void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size_t stride,
                    Json& head, page::Replay& replay) {
   std::vector<std::int32_t> body_a, body_b;
@@ -232,13 +232,13 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
   for (const size_t k : thinned(chosen.size(), stride)) {
     const MotionState& frame = view.frames[chosen[k]];
     const std::vector<FrameContact> contacts = view.contacts(chosen[k]);
-    // before its first step a run knows no forces: those of the next frame stand for them
+    // before its first step a run has no forces: the page shows those of the next frame
     if (frame.step == 0 && contacts.empty()) continue;
     head["contact_frames"].push_back(k);
     head["contact_counts"].push_back(contacts.size());
     int last = 0;
     for (const FrameContact& contact : contacts) {
-      // a is a grain, so that the place can follow it: walls come after grains
+      // a is a grain, so that the place can follow it; walls have the larger numbers
       const auto [a, b] = contact.body_a < view.system.grain_count
                               ? std::pair(contact.body_a, contact.body_b)
                               : std::pair(contact.body_b, contact.body_a);
@@ -289,7 +289,7 @@ void pack_series(const ViewData& view, Json& head, page::Replay& replay) {
   replay.parts.emplace_back("series", text_of(values));
 }
 
-/// Errors in 255 steps of their logarithm, from 1e-9 to 1e2.
+/// Packs errors in 255 steps of their logarithm, from 1e-9 to 1e2.
 void pack_errors(const ViewData& view, Json& head, page::Replay& replay) {
   Bytes bytes;
   head["errors"] = Json::array();
@@ -315,10 +315,10 @@ page::Replay pack_view(const ViewData& view, size_t most_bytes) {
   pack_errors(view, head, replay);
   const size_t still_parts = replay.parts.size(), still_bytes = page_bytes(replay);
   const bool has_contacts = static_cast<bool>(view.contacts);
-  // poses may take two thirds of what is left, where there are contacts too
+  // with contacts, poses may take two thirds of the bytes that are left
   const size_t room = most_bytes > still_bytes ? most_bytes - still_bytes : 0,
                pose_room = has_contacts ? room / 3 * 2 : room;
-  // A moving grain's pose takes at least two bytes: of far too many frames, not all are tried.
+  // A moving grain's pose takes at least two bytes, so far too small strides are skipped.
   size_t stride = 1;
   while (view.frames.size() / stride * view.system.grain_count * 2 > pose_room) stride *= 2;
   std::vector<size_t> chosen;

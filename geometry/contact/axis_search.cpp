@@ -10,7 +10,7 @@ constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 
 /// Index of the largest value, the smallest among equals.
 int argmax(const double* values, int padded) {
-  // The largest of each lane, then of the lanes; where it stands is looked for once it is known.
+  // Takes the maximum of each lane, then that of all lanes, and looks for its row last.
   using Lanes = Eigen::Array<double, 8, 1>;
   Lanes most = Eigen::Map<const Lanes>(values);
   for (int i = 8; i < padded; i += 8) most = most.max(Eigen::Map<const Lanes>(values + i));
@@ -42,8 +42,8 @@ AxisSearch::AxisSearch(std::span<const CollisionShape> shapes) {
 
 AxisOutcome AxisSearch::find(const ShapePair& pair, double alert, AxisFeature& hint,
                              SeparatingAxis& axis) {
-  // What was the best axis in the last step nearly always is again: one evaluation and a proof
-  // then take the place of the search.
+  // The best axis of the last step is nearly always the best again. One evaluation and a proof then
+  // replace the search.
   const std::optional<SeparatingAxis> last = evaluate_axis(pair, hint, heights_);
   if (!last) return search(pair, alert, nullptr, hint, axis);
   axis.separation = last->separation;
@@ -66,8 +66,8 @@ AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const Separa
   if (start) add_witnesses_of(pair, *start);
   bool apart = search_faces(pair, 0, alert) || search_faces(pair, 1, alert);
   if (!apart) {
-    // An edge pair that does better lies near the best axis so far: that axis' corners are the
-    // tightest witnesses.
+    // An edge pair with a larger separation lies near the best axis so far, so the corners of that
+    // axis' facet are the tightest witnesses.
     if (!start || !(best_feature_ == start->feature))
       add_witnesses_of(pair, *evaluate_axis(pair, best_feature_, heights_));
     apart = search_edges(pair, alert);
@@ -79,21 +79,21 @@ AxisOutcome AxisSearch::search(const ShapePair& pair, double alert, const Separa
   return AxisOutcome::found;
 }
 
-/// The first bound of each face comes from the ball inside the other body.
+/// Resets the side of body `own` and bounds its faces' separations by the ball in the other body.
 void AxisSearch::start_side(const ShapePair& pair, int own) {
   const CollisionShape& other = *pair.shape[1 - own];
   const AffineRows& faces = pair.shape[own]->faces();
   Side& side = side_[own];
   side.witnesses = 0;
   side.edges.clear();
-  // Where a ball with centre c and radius r lies in the other body, min n.x over that body is at
-  // most n.c - r: the height of c over a face, less r, bounds the face's separation from above.
+  // The other body contains a ball with centre c and radius r, so that min n.x over it is at most
+  // n.c - r: the height of c over a face, less r, bounds the face's separation from above.
   faces.evaluate(pair.other[own] * other.bounds().ball_centre, side.bound.data());
   for (int f = 0; f < faces.padded(); ++f) side.bound[f] -= other.bounds().ball_radius;
   std::fill_n(side.value.begin(), faces.padded(), minus_infinity);
 }
 
-/// `point`: in the frame of body `own`, of the other body.
+/// `point`: a point of the other body, in the frame of body `own`.
 void AxisSearch::add_witness(const ShapePair& pair, int own, const Vec3& point) {
   const AffineRows& faces = pair.shape[own]->faces();
   Side& side = side_[own];
@@ -101,16 +101,16 @@ void AxisSearch::add_witness(const ShapePair& pair, int own, const Vec3& point) 
       std::min(side.witnesses, most_witnesses - 1);  // when full, the last place is used again
   double* __restrict heights = side.heights.data() + static_cast<size_t>(slot) * faces.padded();
   double* __restrict bound = side.bound.data();
-  // The same with a point w of the other body: its height over a face bounds the separation.
+  // The height of a point of the other body over a face bounds the face's separation from above.
   faces.evaluate(point, heights);
   for (int f = 0; f < faces.padded(); ++f) bound[f] = heights[f] < bound[f] ? heights[f] : bound[f];
   side.witnesses = slot + 1;
 }
 
-/// Makes the corners of the axis' facet witnesses, each for the other body's faces.
+/// Adds the corners of the axis' facet as witnesses, each for the faces of the other body.
 void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& axis) {
-  // Points near the facet bound the directions near its own best: of two edges the ends, of a face
-  // its corners and the vertex over it.
+  // Points near the facet give tight bounds for directions near the facet's own: for two edges
+  // their ends, for a face its corners and the support vertex over it.
   if (axis.feature.kind == AxisKind::edges) {
     const CollisionShape::EdgeEnds edge_a = pair.shape[0]->edge_ends(axis.feature.a);
     const CollisionShape::EdgeEnds edge_b = pair.shape[1]->edge_ends(axis.feature.b);
@@ -131,7 +131,7 @@ void AxisSearch::add_witnesses_of(const ShapePair& pair, const SeparatingAxis& a
 }
 
 /// Evaluates faces of body `own`, the one with the highest bound first, until no bound reaches the
-/// best separation. True as soon as one separates.
+/// best separation. Returns true as soon as a face separates the bodies.
 bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
   Side& side = side_[own];
   const int padded = pair.shape[own]->faces().padded();
@@ -147,17 +147,17 @@ bool AxisSearch::search_faces(const ShapePair& pair, int own, double alert) {
       best_feature_ = AxisFeature::of_face(own, f);
       if (best_ > alert) return true;
     }
-    // The vertex that is lowest over this face is low over faces nearly parallel to it: one more
-    // witness, which lowers their bounds.
+    // The vertex that is lowest over this face is also low over nearly parallel faces. As one more
+    // witness it lowers their bounds.
     add_witness(pair, own, pair.other[own] * pair.shape[1 - own]->vertices().xyz(found.support));
   }
 }
 
-/// Collects the edges of body `own` that could still reach the best separation s: those on whose
-/// arc of normals some direction is ruled out by no witness. On the arc n = m / |m| with
+/// Collects the edges of body `own` that could still reach the best separation s: those whose arc
+/// of normals has a direction that no witness rules out. On the arc n = m / |m| with
 /// m = (1 - l) n_left + l n_right, 0 <= l <= 1, |m| <= 1. A witness w leaves the directions with
-/// m.(w - edge) >= |m| s, hence >= min(s, 0). This is linear in l, with the heights of w over the
-/// two faces at the ends, so that each witness leaves an interval of l.
+/// m.(w - edge) >= |m| s, hence >= min(s, 0). This is linear in l and equals at the ends the
+/// heights of w over the two faces, so that each witness leaves an interval of l.
 void AxisSearch::collect_edges(const ShapePair& pair, int own) {
   const CollisionShape& shape = *pair.shape[own];
   Side& side = side_[own];
@@ -170,7 +170,7 @@ void AxisSearch::collect_edges(const ShapePair& pair, int own) {
     const double* heights = side.heights.data();
     double low = 0.0, high = 1.0;
     for (int k = 0; k < side.witnesses && low <= high; ++k, heights += stride) {
-      // The witness leaves, with `left` and `right` what it has at l = 0 and l = 1 above the least:
+      // `left` and `right` are the witness' heights above `least` at l = 0 and l = 1. It leaves:
       //
       //     left >= 0, right >= 0: all of [0, 1]     left >= 0 > right: up to left / (left - right)
       //     left < 0, right < 0:   nothing           left < 0 <= right: from there on
@@ -192,14 +192,14 @@ bool AxisSearch::search_edges(const ShapePair& pair, double alert) {
     turned_.push_back({e, rotation * edge.along, -(rotation * edge.left_normal),
                        -(rotation * edge.right_normal)});
   }
-  // A cheap look at the arcs comes first and lets doubtful pairs pass: edge_separation decides, in
-  // its own rounding.
+  // A cheap test of the arcs comes first and lets doubtful pairs pass; edge_separation decides them
+  // in its own rounding.
   const double blur = 1e-12;
   for (const int ea : side_[0].edges) {
     const CollisionShape::Edge edge = a.edge(ea);
     const double length_blur = blur * pair.size();
     for (const TurnedEdge& other : turned_) {
-      // Two edges make a facet where each separates the ends of the other's arc: four signs.
+      // Two edges make a facet if each separates the ends of the other's arc: four signs tell.
       const double left_a = edge.left_normal.dot(other.along),
                    right_a = edge.right_normal.dot(other.along);
       if (std::min(left_a, right_a) > length_blur || std::max(left_a, right_a) < -length_blur)

@@ -12,24 +12,24 @@ namespace ballast {
 enum class AxisOutcome {
   separated_by_hint,  ///< the hint's separation exceeds the alert distance
   proved_by_hint,     ///< the hint is the best axis
-  separated,          ///< found by the search
+  separated,          ///< the search found a facet that separates the bodies
   found               ///< the best axis, found by the search
 };
 inline bool is_separated(AxisOutcome outcome) {
   return outcome == AxisOutcome::separated_by_hint || outcome == AxisOutcome::separated;
 }
 
-/// Holds scratch memory; one per thread.
+/// Finds the best axis of a pair. Holds scratch memory, so each thread needs its own.
 class AxisSearch {
  public:
-  /// `shapes`: all that will be asked for, to size the scratch.
+  /// `shapes`: all shapes that will be searched; they determine the size of the scratch memory.
   explicit AxisSearch(std::span<const CollisionShape> shapes);
 
-  /// Finds the best axis of the pair. As soon as some facet's separation exceeds `alert` [m], the
-  /// bodies are separated and the search stops: then only the separation of `axis` is set, to that
-  /// of the facet. `hint`: a facet to start from, of any kind or none; on return the one that
-  /// decided. Whether the bodies are separated and, if not, the axis do not depend on the hint, to
-  /// the last bit.
+  /// Finds the best axis of the pair. As soon as the separation along some facet exceeds `alert`
+  /// [m], the bodies are separated and the search stops; it then sets only the separation of
+  /// `axis`, to that of this facet. `hint`: a facet of any kind, or none, to start from; on return
+  /// the facet that decided. Whether the bodies are separated and, if not, the axis do not depend
+  /// on the hint, to the last bit.
   AxisOutcome find(const ShapePair& pair, double alert, AxisFeature& hint, SeparatingAxis& axis);
 
  private:
@@ -40,14 +40,14 @@ class AxisSearch {
     std::vector<double> bound;  // per face: upper bound of its separation; -infinity once evaluated
     std::vector<double> value;  // per face: its separation, -infinity unless evaluated
     std::vector<double> heights;  // per witness and face: n_f.w - offset_f
-    std::vector<int> edges;       // that the witnesses do not rule out
+    std::vector<int> edges;       // the edges that the witnesses do not rule out
     int witnesses = 0;
   };
   struct EdgePair {
     int a, b;
     double separation;
   };
-  /// An edge of b in a's frame, arc reversed.
+  /// An edge of b in a's frame, with its arc of normals reversed.
   struct TurnedEdge {
     int index;
     Vec3 along, left, right;
@@ -66,7 +66,7 @@ class AxisSearch {
   static constexpr int most_witnesses = 12;
   Heights heights_;
   Side side_[2];
-  std::vector<EdgePair> edge_pairs_;  // evaluated, near or above the best when they were
+  std::vector<EdgePair> edge_pairs_;  // evaluated pairs that came near or above the best so far
   std::vector<TurnedEdge> turned_;
   double best_ = 0.0;  // largest separation so far
   AxisFeature best_feature_;

@@ -67,8 +67,8 @@ void BroadPhase::list_boxes(std::span<const Pose> poses, std::span<const Mat3> r
   run_each(team_, static_cast<int>(order_.size()), /*together=*/64, [&](int k) {
     const int i = order_[k];
     const CollisionShape& shape = *bodies_[i].shape;
-    // The margin beyond the reach is what a body may move before the list is made anew: a large one
-    // makes few lists with many pairs, a small one the reverse.
+    // The margin beyond the reach is the way that a body may move before the list is made anew. A
+    // large margin makes few lists with many pairs, a small one many lists with few pairs.
     allowance_[i] += std::max(0.5 * skin_, std::min(8.0 * reach[i], shape.circumradius()));
     boxes_[i] = bounding_box(shape, rotations[i], poses[i].position);
     boxes_[i].low.array() -= allowance_[i];
@@ -76,8 +76,8 @@ void BroadPhase::list_boxes(std::span<const Pose> poses, std::span<const Mat3> r
   });
 }
 
-/// Sort and prune, strip by strip: boxes lie in strips across one direction, and within a strip
-/// only boxes that overlap along another are compared.
+/// Sorts and prunes strip by strip: the boxes are put into strips across one direction, and within
+/// a strip only boxes that overlap along another direction are compared.
 void BroadPhase::find_overlaps() {
   if (order_.empty()) return;
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300), width = Vec3::Zero();
@@ -86,7 +86,7 @@ void BroadPhase::find_overlaps() {
     high = high.cwiseMax(boxes_[i].low);
     width += (boxes_[i].high - boxes_[i].low) / static_cast<double>(order_.size());
   }
-  // Along the direction in which the bodies are spread out most, in strips across the next one.
+  // Boxes are sorted along the direction of the largest spread, in strips across the next one.
   int axis[] = {0, 1, 2};
   std::ranges::sort(axis, [spread = Vec3(high - low)](int i, int j) {
     return spread[i] > spread[j] || (spread[i] == spread[j] && i < j);
@@ -98,7 +98,7 @@ void BroadPhase::find_overlaps() {
   const double first = low[axis[1]], spread = high[axis[1]] - first;
   const double most = static_cast<double>(order_.size()) / 64.0;
   const int count = 1 + static_cast<int>(std::min(most, spread / (2.0 * width[axis[1]])));
-  const auto strip_of = [=](double at) {  // of what is no number the first
+  const auto strip_of = [=](double at) {  // the first where the share is NaN
     const double share = (at - first) / spread;
     return share > 0.0 ? static_cast<int>(std::min(share, 1.0) * (count - 1)) : 0;
   };
@@ -112,13 +112,13 @@ void BroadPhase::find_overlaps() {
   });
 }
 
-/// Of the boxes of a strip, in the order in which they begin along axis[0]:
+/// Compares the boxes of a strip in the order in which they begin along axis[0]:
 ///
 ///     i   |---------|
 ///     j        |------|          begins before i ends: compared in the other directions
 ///     k                 |---|    begins behind i's end, and so do all after it: i is done
 ///
-/// A pair is found in the strip alone in which its overlap begins: `is_here`.
+/// A pair is listed only in the strip in which its overlap along axis[1] begins: `is_here`.
 template <class IsHere>
 void BroadPhase::compare_boxes(Strip& strip, const int (&axis)[3], const IsHere& is_here) const {
   struct Interval {
@@ -145,8 +145,8 @@ void BroadPhase::compare_boxes(Strip& strip, const int (&axis)[3], const IsHere&
     }
 }
 
-/// What has been found becomes the list. Both are sorted by (a, b): pairs that stay move to their
-/// new places, with what is known of them.
+/// Makes the pairs found the list. Both are sorted by (a, b); pairs that stay keep their memory and
+/// move to their new places.
 void BroadPhase::list_pairs() {
   found_.clear();
   for (const Strip& strip : strips_)
@@ -160,7 +160,7 @@ void BroadPhase::list_pairs() {
     return next == found_.end() || *next != std::pair(pair.a, pair.b);
   });
   std::fill(first_.begin(), first_.end(), 0);
-  // From the end on, so that no pair is written over before it has moved.
+  // Works from the end, so that no pair is overwritten before it has moved.
   size_t stays = pairs_.size();
   pairs_.resize(found_.size());
   for (size_t k = found_.size(); k-- > 0;) {

@@ -1,6 +1,6 @@
 #pragma once
-// Candidate pairs of polyhedra: bounding boxes with a margin, listed once and kept until the margin
-// is used up.
+// Candidate pairs of polyhedra, from bounding boxes with a margin. The list is made once and kept
+// until the margin is used up.
 
 #include <span>
 #include <utility>
@@ -14,8 +14,8 @@ namespace ballast {
 /// Tight box around a shape at a pose, axis-aligned in the world frame [m].
 Bounds bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec3& position);
 
-/// How far a body has moved: no point at distance r from its origin by more than shift + r turn.
-/// Added up over steps, the increase since any earlier time bounds the motion since then.
+/// A bound on a body's motion: a point at distance r from its origin moves by at most shift + r
+/// turn. Summed over steps, its increase since any earlier time bounds the motion since then.
 struct Travel {
   double shift = 0.0;  ///< [m]
   double turn = 0.0;   ///< chord of the unit circle [1]
@@ -28,25 +28,25 @@ Travel step_bound(const Pose& from, const Pose& to);
 /// Two polyhedra that may touch, a < b, and the memory of their last detection.
 struct CandidatePair {
   int a, b;
-  AxisFeature axis = {};  ///< the one that decided last time
-  int touching = -1;      ///< its record among the pairs that touch; -1: none
-  /// Proved separated while shift_a + shift_b + arm_a turn_a + arm_b turn_b + reach_a + reach_b
-  /// stays below this [m].
+  AxisFeature axis = {};  ///< the facet that decided last time
+  int touching = -1;      ///< index of its TouchingPair record; -1: none
+  /// The pair is proved separated while shift_a + shift_b + arm_a turn_a + arm_b turn_b + reach_a +
+  /// reach_b stays below this [m].
   double apart_below = -1.0;
   double arm_a = 0.0, arm_b = 0.0;  ///< [m]
 };
 
 /// The list holds every pair whose boxes, each grown by its body's reach, overlap at the given
-/// poses. It may hold more: boxes are listed with a margin, and the list stands as long as no body
-/// has used up its margin by moving or by a longer reach. How far bodies have moved is measured on
-/// the poses in every call.
+/// poses. It may hold more pairs: boxes are listed with a margin, and the list stays valid until a
+/// body has used up its margin by moving or by a longer reach. Every call measures on the poses how
+/// far the bodies have moved.
 class BroadPhase {
  public:
   struct Body {
     const CollisionShape* shape;  ///< not owned; null: left out (planes)
     bool fixed;                   ///< two fixed bodies are never a pair
-    int owner = -1;               ///< nor are two of one owner, if they have any
-    bool image = false;           ///< nor two images
+    int owner = -1;               ///< two bodies of one owner are never a pair; -1: no owner
+    bool image = false;           ///< two images are never a pair
     bool meets(const Body& other) const {
       return !(fixed && other.fixed) && (owner < 0 || owner != other.owner) &&
              !(image && other.image);
@@ -61,13 +61,13 @@ class BroadPhase {
   void update(std::span<const Pose> poses, std::span<const Mat3> rotations,
               std::span<const double> reach);
 
-  /// Shares the work of update(); null: alone. The same list either way.
+  /// `team` shares the work of update(); null: the caller works alone. The list is the same.
   void use_team(WorkerTeam* team) { team_ = team; }
 
-  /// Sorted by (a, b).
+  /// The candidate pairs, sorted by (a, b).
   std::span<CandidatePair> pairs() { return pairs_; }
   std::span<const CandidatePair> pairs() const { return pairs_; }
-  /// Pairs with a given a: pairs()[first(a)] to pairs()[first(a + 1)].
+  /// The pairs with a given a are pairs()[first(a)] to before pairs()[first(a + 1)].
   int first(int a) const { return first_[a]; }
   long rebuilds() const { return rebuilds_; }
 
@@ -77,8 +77,8 @@ class BroadPhase {
                   std::span<const double> reach);
   void find_overlaps();
   using Found = std::pair<int, int>;  // bodies a < b whose boxes overlap
-  /// Polyhedra that lie beside each other in one direction, by the low end of their boxes in
-  /// another.
+  /// The polyhedra whose boxes reach into a strip across one direction, sorted by the low end of
+  /// their boxes along another.
   struct Strip {
     std::vector<int> bodies;
     std::vector<Found> found;
@@ -88,15 +88,15 @@ class BroadPhase {
   void list_pairs();
 
   std::vector<Body> bodies_;
-  std::vector<double> radius_;  // circumradii, together for the processor's cache [m]
+  std::vector<double> radius_;  // circumradii [m], side by side for the processor's cache
   double skin_;
-  std::vector<Pose> listed_pose_;  // when the list was made
+  std::vector<Pose> listed_pose_;  // poses when the list was made
   std::vector<double>
-      allowance_;              // how far a body's surface may get from there, reach included [m]
+      allowance_;              // how far a surface may get from listed_pose_, reach included [m]
   std::vector<Bounds> boxes_;  // grown by the allowance
-  std::vector<int> order_;     // polyhedra, by the low end of their boxes
+  std::vector<int> order_;     // polyhedra, sorted by the low end of their boxes
   std::vector<Strip> strips_;
-  std::vector<Found> found_;  // in all strips, sorted
+  std::vector<Found> found_;  // pairs found in all strips, sorted
   std::vector<CandidatePair> pairs_;
   std::vector<int> first_;
   WorkerTeam* team_ = nullptr;

@@ -18,7 +18,7 @@ std::vector<std::uint16_t> in_two_bytes(const std::vector<int>& numbers) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// The nearest number of single precision that is not above.
+/// The largest single-precision number that is not above `value`.
 float rounded_down(double value) {
   const float nearest = static_cast<float>(value);
   return nearest > value ? std::nextafter(nearest, -HUGE_VALF) : nearest;
@@ -74,15 +74,15 @@ void CollisionShape::write(int f, FaceTable& table) const {
   }
 }
 
-/// Writes the faces, and how isolated each one's normal is. Returns the corners' vertices, face by
+/// Writes the faces and the isolation of each face's normal. Returns the corners' vertices, face by
 /// face.
 std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron) {
   faces_ = AffineRows(polyhedron.face_count(), -far_away);
   std::vector<int> first_corner, corners;
   for (int f = 0; f < polyhedron.face_count(); ++f) {
     const Vec3& normal = polyhedron.normal(f);
-    // Through the highest vertex and not the mean of the corners: no vertex is in front of its
-    // face.
+    // The plane goes through the highest vertex and not the mean of the corners: no vertex is in
+    // front of its face.
     double offset = -far_away;
     for (const Vec3& vertex : polyhedron.vertices())
       offset = std::max(offset, vertex_height(normal, vertex));
@@ -100,7 +100,7 @@ std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron) {
   return corners;
 }
 
-/// The sine of the smallest angle to another face's normal; beyond 60 degrees it stays at one.
+/// Writes the sine of the smallest angle to another face's normal, or one beyond 60 degrees.
 void CollisionShape::measure_isolation() {
   std::vector<double> sines(faces_.count(), 1.0);
   for (int f = 0; f < faces_.count(); ++f) {
@@ -117,7 +117,7 @@ void CollisionShape::measure_isolation() {
   for (const double sine : sines) isolation_.push_back(rounded_down(sine));
 }
 
-/// Writes the edges, and where they stand in the loops of the two faces beside.
+/// Writes the edges and their places in the loops of the two faces beside each.
 void CollisionShape::build_edges(const Polyhedron& polyhedron, std::span<const int> corners) {
   std::vector<int> edges, corner_edge(corners.size());
   drop_.reserve(corner_edge.size() / 2);
@@ -165,8 +165,8 @@ void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron) {
   vertex_faces_ = in_two_bytes(all);
 }
 
-/// Around the origin (a grain's centre of mass) or around the vertices' mean, whichever ball is
-/// larger: the mean is always strictly inside, the origin of a user's frame need not be.
+/// Puts the ball around the origin (a grain's centre of mass) or the vertices' mean, whichever ball
+/// is larger: the mean is always strictly inside, the origin of a user's frame need not be.
 void CollisionShape::build_ball(const Polyhedron& polyhedron) {
   const Vec3 middle = mean(polyhedron.vertices());
   const auto radius_about = [&](const Vec3& centre) {

@@ -17,8 +17,8 @@ namespace ballast {
 class AffineRows {
  public:
   AffineRows() = default;
-  /// `padding`: w of the rows that fill up, chosen so that they never win the minimum or maximum
-  /// that is sought.
+  /// `padding`: the w of the padding rows. It must be such that they never win the minimum or
+  /// maximum that is sought.
   AffineRows(int count, double padding);
 
   int count() const { return count_; }
@@ -31,9 +31,9 @@ class AffineRows {
 
   /// values[i] = xyz(i).d + w(i) for all padded() rows.
   void evaluate(const Vec3& d, double* values) const;
-  /// Asks the cache for the rows: those of thousands of shapes lie in memory.
+  /// Prefetches the rows, which lie in main memory when there are thousands of shapes.
   void fetch() const {
-    constexpr size_t line = 8, most = 32 * line;  // numbers; of a usual grain's rows 16 lines
+    constexpr size_t line = 8, most = 32 * line;  // numbers; a usual grain's rows take 16 lines
     for (size_t k = 0; k < std::min(table_.size(), most); k += line)
       __builtin_prefetch(table_.data() + k);
   }
@@ -58,13 +58,12 @@ struct alignas(64) BodyBounds {
                               ///< rounding, or within the polyhedron's tolerance
 };
 
-/// Built once per shape, in the frame of the polyhedron [m]. Neighbouring faces in one plane
-/// are best joined before, as convex_hull() and read_mesh() do: a contact patch ends at their edge.
+/// Built once per shape, in the frame of the polyhedron [m]. Coplanar neighbouring faces are best
+/// joined before, as convex_hull() and read_mesh() do: a contact patch ends at their edge.
 ///
-/// Kept are positions, planes and which feature borders on which: of thousands of shapes, each with
-/// its own grain, few are in the cache, and each byte counts. Whatever follows from them, the
-/// records of faces, edges, corners and sides, is computed when it is asked for, always to the same
-/// bits.
+/// It stores only positions, planes and which feature borders on which: with thousands of shapes,
+/// one for each grain, few are in the cache, and each byte counts. The records of faces, edges,
+/// corners and sides follow from these and are computed when asked for, always to the same bits.
 class CollisionShape {
  public:
   struct Face {
@@ -72,8 +71,8 @@ class CollisionShape {
     double offset;     ///< support of the whole polyhedron along the normal
     double isolation;  ///< no other face's normal is nearer than this angle, at most 1 [rad]
   };
-  /// What an edge joins: its ends and, seen from outside, the face `left`, which runs tail -> head,
-  /// and the face `right`.
+  /// The ends and the two faces of an edge. Seen from outside, face `left` runs tail -> head and
+  /// face `right` runs head -> tail.
   struct EdgeEnds {
     std::uint16_t tail, head, left, right;
   };
@@ -81,8 +80,8 @@ class CollisionShape {
     Vec3 from, along;                ///< the tail, and head - tail
     Vec3 left_normal, right_normal;  ///< outward
     double length;
-    /// Along the unit normal n of this edge and another one, u, every vertex but the two ends lies
-    /// at least drop min(|left_normal.u|, |right_normal.u|) / |along x u| below the edge [m].
+    /// Along the common unit normal of this edge and another edge u, every vertex but the two ends
+    /// lies at least drop min(|left_normal.u|, |right_normal.u|) / |along x u| below the edge [m].
     float drop;
   };
   /// Corner k of a face's loop and the edge from there to corner k+1.
@@ -90,19 +89,19 @@ class CollisionShape {
     int vertex, edge;
     Vec3 position;
   };
-  /// The plane through that edge which stands on the face: inside the face outward.x <= offset.
+  /// The plane through that edge, perpendicular to the face: inside the face outward.x <= offset.
   struct Side {
     Vec3 outward;  ///< unit, in the plane of the face
     double offset;
   };
 
-  /// A face with its loop, written out.
+  /// A face with its corners and sides.
   struct FaceView {
     const Face& face;
     std::span<const Corner> corners;
     std::span<const Side> sides;
   };
-  /// Room for a face of any number of corners.
+  /// Storage for a face with any number of corners.
   struct FaceTable {
     Face face;
     std::vector<Corner> corners;
@@ -110,8 +109,8 @@ class CollisionShape {
     FaceView view() const { return {face, corners, sides}; }
   };
 
-  /// Throws InvalidPolyhedron where its faces have more than 65535 corners together, as they have
-  /// with 11,000 vertices.
+  /// Throws InvalidPolyhedron if its faces have more than 65535 corners in total, as triangles on
+  /// 11,000 vertices do.
   explicit CollisionShape(const Polyhedron& polyhedron);
 
   /// Rows (position, 0); padding is far above every height.
@@ -130,8 +129,7 @@ class CollisionShape {
   Side side(int f, int k) const;
   void write(int f, FaceTable& table) const;
 
-  /// Faces that have v in their plane are vertex_face(v, k), 0 <= k < vertex_face_count(v),
-  /// ascending.
+  /// The faces with v as a corner are vertex_face(v, k), 0 <= k < vertex_face_count(v), ascending.
   int vertex_face_count(int v) const { return vertex_begin_[v + 1] - vertex_begin_[v]; }
   int vertex_face(int v, int k) const { return vertex_faces_[vertex_begin_[v] + k]; }
   const BodyBounds& bounds() const { return bounds_; }
@@ -146,13 +144,13 @@ class CollisionShape {
   void build_ball(const Polyhedron& polyhedron);
 
   AffineRows vertices_, faces_;
-  // Bounds for proofs, which hold as well when single precision has rounded them down.
+  // Lower bounds for proofs; they still hold when rounded down to single precision.
   std::vector<float> isolation_;  // of each face
   std::vector<float> drop_;       // of each edge
-  // Numbers of features, in two bytes each.
-  std::vector<std::uint16_t> edges_;         // tail, head, left, right of each
-  std::vector<std::uint16_t> first_corner_;  // of each face, and the end
-  std::vector<std::uint16_t> corner_edge_;   // of all faces
+  // Indices of features, in two bytes each.
+  std::vector<std::uint16_t> edges_;         // tail, head, left, right of each edge
+  std::vector<std::uint16_t> first_corner_;  // of each face, then the end
+  std::vector<std::uint16_t> corner_edge_;   // the edge of each corner, face by face
   std::vector<std::uint16_t> vertex_begin_, vertex_faces_;
   BodyBounds bounds_;
 };

@@ -14,7 +14,7 @@
 namespace ballast {
 namespace {
 
-/// 5 % of the mean circumradius where the scene leaves it open [m].
+/// The scene's skin or, where the scene leaves it open, 5 % of the mean circumradius [m].
 double chosen_skin(double skin, std::span<const CollisionShape> shapes) {
   if (skin > 0.0 || shapes.empty()) return skin;
   double sum = 0.0;
@@ -66,7 +66,7 @@ struct ContactDetector::State {
 
   DetectionSettings settings;
   size_t body_count;
-  Elements elements;  // where bodies are not convex shapes themselves
+  Elements elements;  // only where bodies have several parts or the world repeats itself
   DetectedBodies bodies;
   BroadPhase broad_phase;
   WorkerTeam* team = nullptr;
@@ -99,13 +99,13 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
     poses = s.elements->poses();
     reach = s.elements->reach();
   }
-  // Rotations of all bodies once, then the pairs that may touch, then each part's run of pairs.
+  // Computes all rotations once, then the candidate pairs, then the contacts of each part's pairs.
   s.bodies.take(poses, reach, s.team);
   s.bodies.ahead = ahead;
   const long rebuilds = s.broad_phase.rebuilds();
   s.broad_phase.update(poses, s.bodies.rotations, s.bodies.reach);
   if (s.broad_phase.rebuilds() != rebuilds) s.share();
-  // The only part writes to `contacts`; what several have found is put together in their order.
+  // A single part writes to `contacts`; the contacts of several are put together in their order.
   const int parts = static_cast<int>(s.parts.size());
   run_parts(s.team, parts, [&](int k) {
     std::vector<ContactPoint>& found = parts == 1 ? contacts : s.parts[k].found;
@@ -124,7 +124,7 @@ void ContactDetector::detect(std::span<const Pose> poses, std::span<const double
   if (s.elements) s.elements->name_bodies(contacts);
 }
 
-/// Each part's contacts by whoever has found them.
+/// Concatenates the parts' contacts; normally each thread copies those that it has found.
 void ContactDetector::State::put_together(std::vector<ContactPoint>& contacts) {
   size_t count = 0;
   for (DetectionPart& part : parts)
@@ -151,10 +151,10 @@ void ContactDetector::State::check(std::span<const Pose> poses,
   }
 }
 
-/// Deals the bodies out to the parts, so that each has about the same work. The memory of pairs no
-/// longer listed is dropped.
+/// Deals the bodies out to the parts, so that each has about the same work. Drops the memory of
+/// pairs that are no longer listed.
 void ContactDetector::State::share() {
-  // A plane looks at all bodies: as much work as one pair for every 64 of them.
+  // A plane tests all bodies, which is as much work as one pair for every 64 of them.
   const size_t plane_work = 1 + bodies.shapes.size() / 64;
   const auto work_of = [&](int a) {
     return (bodies.shape(a) ? 0 : plane_work) +
@@ -165,8 +165,8 @@ void ContactDetector::State::share() {
   for (const CandidatePair& pair : broad_phase.pairs())
     if (pair.touching >= 0) parts[part_of[pair.a]].keep(pair);
   for (DetectionPart& part : parts) part.drop_others();
-  // Neighbours in the list stay together: a part is a run of bodies, and the parts' contacts, one
-  // after the other, are in the order that one part alone would give.
+  // Each part is a run of neighbours in the list, so that the parts' contacts, one after the other,
+  // are in the order that one part alone would give.
   int begin = 0;
   for (size_t k = 0; k < parts.size(); ++k) {
     int end = begin;
@@ -231,7 +231,7 @@ void carry_pair(std::span<const ContactPoint> old_pair, std::span<const Vec3> im
   }
 }
 
-/// Of the pairs of new points that begin in [begin, end).
+/// Carries the impulses to the pairs of new points that begin in [begin, end).
 void carry_range(std::span<const ContactPoint> old_contacts, std::span<const Vec3> impulses,
                  std::span<const ContactPoint> new_contacts, size_t begin, size_t end,
                  std::vector<Vec3>& carried) {
@@ -257,9 +257,9 @@ void carry_range(std::span<const ContactPoint> old_contacts, std::span<const Vec
 void carry_impulses(std::span<const ContactPoint> old_contacts, std::span<const Vec3> old_impulses,
                     std::span<const ContactPoint> new_contacts, std::vector<Vec3>& carried,
                     WorkerTeam* team) {
-  // Both lists are sorted by pair and feature. An impulse goes to the point with its
-  // key, and that of a point that is gone to another point of its pair: what a pair
-  // carries is kept while it touches.
+  // Both lists are sorted by pair and feature. An impulse goes to the point with its key. The
+  // impulse of a point that is gone goes to another point of its pair, so that a pair keeps its
+  // total impulse while it touches.
   const int count = static_cast<int>(new_contacts.size());
   carried.resize(new_contacts.size());
   run_ranges(team, count, /*together=*/256, [&](int begin, int end) {

@@ -1,7 +1,7 @@
 #pragma once
-// Shapes and poses -> contact points, in one call per step: candidate pairs (broad_phase.hpp), best
-// axis of each (axis_search.hpp), normal, gaps and points (contact_normal.hpp). And last step's
-// impulses, carried to this step's contact points by feature key.
+// Shapes and poses -> contact points, in one call per step: candidate pairs (broad_phase.hpp), the
+// best axis of each (axis_search.hpp), then normal, gaps and points (contact_normal.hpp). Also
+// carries last step's impulses to this step's contact points by feature key.
 
 #include <memory>
 #include <span>
@@ -15,8 +15,8 @@ namespace ballast {
 class WorkerTeam;
 
 /// Contact detection for one set of bodies, of one or several convex parts, with a memory from step
-/// to step. The memory makes it fast and changes nothing: contacts depend only on the poses and
-/// reaches given. They come sorted by (body_a, body_b, feature).
+/// to step. The memory makes it fast and does not change the result: contacts depend only on what
+/// detect() is given. They are sorted by (body_a, body_b, feature).
 class ContactDetector {
  public:
   /// Throws std::invalid_argument as ConvexElements.
@@ -27,14 +27,14 @@ class ContactDetector {
   /// poses[i]: pose of body i. reach[i] [m]: bound on how far any point of body i moves until the
   /// next detection. A point is reported when its gap <= reach[a] + reach[b]. `contacts` is
   /// overwritten; no allocation once it has grown. `ahead`: the poses at the next detection if
-  /// nothing is met. With them bodies pass fixed ones' edges that would not stop them.
+  /// nothing is met. With them a body passes edges of fixed bodies that would not stop it.
   void detect(std::span<const Pose> poses, std::span<const double> reach,
               std::vector<ContactPoint>& contacts, std::span<const Pose> ahead = {});
 
   const DetectionCounters& counters() const;
 
-  /// From now on the work is done in so many parts, by `team` (null: by the caller alone), which
-  /// must outlive the detector. The same contacts, whatever their number.
+  /// Lets `team`, which must outlive the detector, do the work in at least `parts` parts (null: the
+  /// caller works alone). The contacts do not depend on the number of parts.
   void use_team(WorkerTeam* team, int parts);
 
  private:
@@ -51,7 +51,7 @@ class ContactDetector {
 /// impulse of a point whose key has gone goes to the nearest unmatched new point of the same pair,
 /// or to the nearest of all if every one is matched. A pair that stays thus keeps its sum; a pair
 /// that has gone loses its impulse. `carried` is resized to the new contacts; points without a past
-/// get zero. No allocation once grown. `team` shares the work; null: the caller alone.
+/// get zero. No allocation once grown. `team` shares the work; null: the caller works alone.
 void carry_impulses(std::span<const ContactPoint> old_contacts, std::span<const Vec3> old_impulses,
                     std::span<const ContactPoint> new_contacts, std::vector<Vec3>& carried,
                     WorkerTeam* team = nullptr);

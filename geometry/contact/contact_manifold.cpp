@@ -10,8 +10,8 @@ double triangle_area(const ClippedPoint& p, const ClippedPoint& q, const Clipped
   return 0.5 * (q.position - p.position).cross(r.position - p.position).norm();
 }
 
-/// Side k of the reference face meets an edge of the incident face, or one of the face's own sides
-/// at their common corner.
+/// The key of the point where side k of the reference face meets an edge of the incident face, or
+/// another side of the reference face at their common corner.
 std::uint64_t crossing_key(int reference, std::span<const CollisionShape::Corner> corners, int k,
                            int edge) {
   const int own_edge = corners[k].edge;
@@ -42,7 +42,7 @@ bool may_be_joint(const SeparatingAxis& axis, const ManifoldLimits& limits) {
   return limits.is_passing || std::abs(axis.separation) <= limits.joint;
 }
 
-/// The whole incident face ends within limits.joint of one side of the prism, or beyond it.
+/// True if, at one side of the prism, the incident face reaches inwards by at most limits.joint.
 bool is_joint(const PairFrame& pair, const SeparatingAxis& axis, const ManifoldLimits& limits,
               int reference, const CollisionShape::FaceView& face,
               std::span<const CollisionShape::Corner> incident, const Vec3* direction = nullptr) {
@@ -58,7 +58,7 @@ bool is_joint(const PairFrame& pair, const SeparatingAxis& axis, const ManifoldL
   return false;
 }
 
-/// One of the two edges ends within limits.joint of where they cross, or before.
+/// True if one of the two edges ends within limits.joint of the crossing, or before it.
 bool is_joint(const SeparatingAxis& axis, const ManifoldLimits& limits,
               const CollisionShape::Edge& a, const CollisionShape::Edge& b) {
   const auto ends = [&](double at, double length) {
@@ -100,7 +100,7 @@ void FaceClipper::clip_by_side(int reference, const FaceView& face, int k,
     const double here = distance_[i], there = distance_[next];
     if (here <= thickness) {
       clipped_.push_back(p);
-      // A corner in the plane whose edge leaves: the polygon goes on along the side.
+      // This corner is in the side's plane and its edge leaves: the polygon goes on along the side.
       if (here >= -thickness && there > thickness) clipped_.back().next_edge = ~k;
     }
     const bool leaves = here < -thickness && there > thickness,
@@ -127,7 +127,7 @@ bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis,
   const double diameter = 2.0 * pair.bounds[1 - axis.feature.reference()]->circumradius;
   const double slope = axis.clearance / diameter;
   // At the nearest side of the face, `inside` away, the body is at least slope times inside higher
-  // than its support vertex: what the side cuts is out of reach, and so is every other vertex.
+  // than its support vertex: the part cut off is out of reach, and so is every other vertex.
   return axis.inside > thickness && axis.separation + slope * axis.inside > alert + thickness &&
          axis.separation + axis.clearance > alert + thickness;
 }
@@ -189,7 +189,7 @@ std::span<const ManifoldPoint> ContactManifold::crossing(const PairFrame& pair,
   return lone_point(pair, axis, edges_cross(pair, axis, a, b));
 }
 
-/// The points of the candidates that are kept, in the order of their keys.
+/// Reduces the candidates to `max_points` and returns their points in the order of their keys.
 std::span<const ManifoldPoint> ContactManifold::chosen_points(const PairFrame& pair,
                                                               const SeparatingAxis& axis,
                                                               int max_points) {
@@ -202,7 +202,7 @@ std::span<const ManifoldPoint> ContactManifold::chosen_points(const PairFrame& p
   return points_;
 }
 
-/// The corners of the faces' common part, cut along the axis, and the edges' crossing.
+/// Collects the corners of the faces' common part, cut along the axis, and the edges' crossing.
 std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
                                                        const SeparatingAxis& axis,
                                                        const EdgesMeeting& meeting,
@@ -223,7 +223,7 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
   for (ClippedPoint p : corners) {
     if (p.height > limits.alert) continue;
     has_crossing |= p.key == crossing.key;
-    // from a's surface, where the corners of b's face cut, to b's
+    // the corners of a's face are on a's surface: moves them to b's, in a's frame
     if (reference == 1) p.position = pair.other[0] * p.position + p.height * axis.direction;
     candidates_.push_back(p.key == crossing.key ? crossing : p);
   }
@@ -249,7 +249,7 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
     deepest = std::min(deepest, point.height);
     if (point.height <= limits.alert) candidates_.push_back(point);
   }
-  // No corner is as deep as the touching vertex: it lies beside the face and was cut off.
+  // If no corner is as deep as the touching vertex, that vertex was cut off beside the face.
   if (!limits.is_passing && deepest > touching.height + proof_margin(pair)) {
     std::erase_if(candidates_,
                   [&](const ClippedPoint& point) { return point.key == touching.key; });

@@ -1,7 +1,7 @@
 #pragma once
 // A pair and its separating axis -> the points where the two bodies touch or may touch within the
-// step. Which points these are is the contact rule's business (contact_normal.hpp); here they are
-// collected and, where there are too many, the most useful ones kept.
+// step. The contact rule (contact_normal.hpp) says which points these are; this module collects
+// them and, where there are too many, keeps the most useful ones.
 
 #include <span>
 #include <vector>
@@ -10,32 +10,32 @@
 
 namespace ballast {
 
-/// The face of body 1 - `reference`, among those at its vertex, that opposes the reference face
-/// most. Near-ties go to the smallest index: rounding must not choose.
+/// Returns the face of body 1 - `reference`, among those at `vertex`, that opposes the reference
+/// face most. Near-ties go to the smallest index: rounding must not choose.
 int incident_face(const ShapePair& pair, int reference, int face, int vertex);
 /// Cosines nearer than this are near-ties.
 constexpr double equal_cosines = 1e-12;
 
-/// Which points a pair gets.
+/// Limits on the points of a pair.
 struct ManifoldLimits {
   double alert;    ///< the largest gap of a point [m]
   int max_points;  ///< of a pair; the deepest is always kept
-  /// A joint of bodies that do not move freely: a face (or edge) that ends within this [m] of the
-  /// other one's side (or end), or before it, only lies beside it, and has no points while gap and
-  /// overlap are less than this. Below 0: there is no joint.
+  /// For joints of bodies that do not move freely [m]: a face (or edge) that ends within this of
+  /// the other one's side (or end), or before it, only lies beside it. Such a pair has no points
+  /// while gap and overlap are not larger than this. Below 0: there are no joints.
   double joint = -1.0;
-  bool is_passing = false;  ///< what lies beside has no points, whatever the gap
+  bool is_passing = false;  ///< faces and edges that only lie beside have no points at any gap
 };
 
-/// What a manifold is made from when the axis is a face: that face, the corners of the incident
-/// face, and the axis' support vertex, each in its own body's frame. Of the reference face's
-/// corners the numbers alone are read.
+/// The input of a manifold whose axis is a face: that face, the corners of the incident face, and
+/// the axis' support vertex, each in its own body's frame. Of the reference face's corners only the
+/// indices are read.
 struct FaceOnFace {
   CollisionShape::FaceView reference;
   std::span<const CollisionShape::Corner> incident;
   const Vec3& vertex;
 };
-/// The same for two edges: of the faces beside each, EdgesMeeting's.
+/// The same for two edges, with the faces beside them that EdgesMeeting chooses.
 struct EdgeOnEdge {
   const CollisionShape::Edge &a, &b;
   CollisionShape::FaceView beside_a, beside_b;
@@ -43,11 +43,11 @@ struct EdgeOnEdge {
 
 // ---- a face of one body clipped by the sides of a face of the other
 
-/// Sutherland-Hodgman, with names for the corners. Holds scratch memory; one per thread.
+/// Sutherland-Hodgman clipping with keys for the corners. Holds scratch memory; one per thread.
 class FaceClipper {
  public:
-  /// Room for every polygon of ordinary grains: buffers change places while clipping, so each must
-  /// be large enough at once.
+  /// Reserves room for every polygon of ordinary grains. Clipping swaps the buffers, so each of
+  /// them must be large enough from the start.
   FaceClipper() {
     polygon_.reserve(room);
     clipped_.reserve(room);
@@ -56,11 +56,11 @@ class FaceClipper {
 
   using FaceView = CollisionShape::FaceView;
 
-  /// The part of the face with corners `incident` of body 1 - `reference` that lies within the
-  /// prism on face `face` of body `reference`, counter-clockwise seen from the incident body's
-  /// outside. The prism lies along the face's normal, or along `direction`, a unit vector in the
-  /// reference body's frame, and the face's sides are not read. Corners up to `thickness` [m]
-  /// outside a side count as inside and stay where they are. Valid until the next call.
+  /// Returns the part of the face with corners `incident` of body 1 - `reference` that lies within
+  /// the prism on face `face` of body `reference`, counter-clockwise seen from the incident body's
+  /// outside. The prism runs along the face's normal or, if given, along `direction`, a unit vector
+  /// in the reference body's frame; the face's sides are then not read. Corners up to `thickness`
+  /// [m] outside a side count as inside and stay where they are. Valid until the next call.
   std::span<ClippedPoint> clip(const PairFrame& pair, int reference, const FaceView& face,
                                std::span<const CollisionShape::Corner> incident, double thickness,
                                const Vec3* direction = nullptr);
@@ -77,36 +77,36 @@ class FaceClipper {
 // ---- one point only
 //
 // Most manifolds are one vertex over a face, whose place is known from the axis. A proof from the
-// features' records alone spares the clipping of faces, and the look at the shapes' tables. It is
-// sufficient, not necessary: without it the points are collected, which gives the same one, to the
-// same bits.
+// features' records alone saves the clipping of faces and the reading of the shapes' tables. It is
+// sufficient, not necessary: where it fails, the points are collected, which gives the same point
+// to the same bits.
 
-/// Corners up to this far outside a side of a face [m] still count as on the face. `size`: of the
-/// pair.
+/// Corners up to this far outside a side of a face [m] still count as on the face. `size`: the
+/// pair's PairFrame::size().
 constexpr double clipping_thickness(double size) { return 1e-9 * size; }
 
-/// The axis is a face and its support vertex is the only point within limits.alert: everything else
-/// of the other body rises out of reach before it gets to the sides or to another vertex. The
-/// axis' clearance may be a lower bound.
+/// Whether the support vertex of the axis, which must be a face, is proved to be the only point
+/// within limits.alert: all else of the other body rises out of reach before it gets to the face's
+/// sides or to another vertex. The axis' clearance may be a lower bound.
 bool is_lone_vertex(const PairFrame& pair, const SeparatingAxis& axis,
                     const ManifoldLimits& limits);
 
 /// Holds scratch memory; one per thread.
 class ContactManifold {
  public:
-  /// Points of the pair within the limits, sorted by key. The axis must be the pair's best and its
-  /// separation <= alert. Unless it is a joint, the smallest gap equals the separation: the
-  /// touching vertex is added if clipping has lost it. Valid until the next call.
+  /// Returns the pair's points within the limits, sorted by key. The axis must be the pair's best
+  /// and its separation <= alert. Unless the pair is a joint, the smallest gap equals the
+  /// separation: the touching vertex is added if clipping has lost it. Valid until the next call.
   std::span<const ManifoldPoint> points(const ShapePair& pair, const SeparatingAxis& axis,
                                         const ManifoldLimits& limits);
-  /// The same from the features alone, where nothing proves that the point is alone; of two edges,
-  /// if they are flat.
+  /// The same from the features alone, for pairs whose point is not proved to be the only one; for
+  /// two edges, if they are flat.
   std::span<const ManifoldPoint> points(const PairFrame& pair, const SeparatingAxis& axis,
                                         const FaceOnFace& faces, const ManifoldLimits& limits);
   std::span<const ManifoldPoint> points(const PairFrame& pair, const SeparatingAxis& axis,
                                         const EdgesMeeting& meeting, const EdgeOnEdge& edges,
                                         const ManifoldLimits& limits);
-  /// The point where two edges cross that are not flat; none at a joint.
+  /// The crossing of two edges that are not flat; none at a joint.
   std::span<const ManifoldPoint> crossing(const PairFrame& pair, const SeparatingAxis& axis,
                                           const CollisionShape::Edge& a,
                                           const CollisionShape::Edge& b,
@@ -121,8 +121,8 @@ class ContactManifold {
   void reduce(int max_points, double size);
 
   FaceClipper clipper_;
-  CollisionShape::FaceTable face_of_[2];  // the pair's faces, out of the shapes' tables
-  // Within reach, in the order of the polygon's corners; in the frame of the reference body.
+  CollisionShape::FaceTable face_of_[2];  // the pair's faces, copied from the shapes' tables
+  // The points within reach, in the order of the polygon's corners, in the reference body's frame.
   std::vector<ClippedPoint> candidates_;
   std::vector<int> by_key_;  // candidates in the order of their keys
   std::vector<char> chosen_;

@@ -6,8 +6,8 @@
 namespace ballast {
 namespace {
 
-/// Of the two faces beside an edge, the one that looks along d most. The edge's record knows both
-/// normals, so that the faces' records need not be read.
+/// Of the two faces beside an edge, the one whose normal is nearest to d. The edge's record holds
+/// both normals, so that the faces' records need not be read.
 struct FaceBesideEdge {
   int face;
   double cosine;
@@ -51,7 +51,7 @@ ClippedPoint edges_cross(const PairFrame& pair, const SeparatingAxis& axis,
   ClippedPoint place;
   place.key = feature_key(PointKind::edges, axis.feature.a, axis.feature.b);
   place.height = axis.separation;
-  // Half the height from the middle is on b's surface, unless the points are held at the ends.
+  // b's surface is half the height from the middle, unless the points are held at the ends.
   place.position = 0.5 * (on_a + on_b) + 0.5 * place.height * axis.direction;
   place.next_edge = -1;
   return place;

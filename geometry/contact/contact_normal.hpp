@@ -12,9 +12,9 @@
 //   the gaps    g_i  along n [m]; negative where the bodies overlap:     g_i = h_i
 //   the points  x_i  midway between the two surfaces:  x = x_b - g/2 n = x_a + g/2 n
 //
-// with x_a and x_b the places on the surfaces of a and b. The proofs need d, s and h alone and the
-// law needs n, g and x alone: another rule changes contact_normal, contact_gap and contact_at below
-// and nothing in the search.
+// with x_a and x_b the places on the surfaces of a and b. The proofs need only d, s and h and the
+// contact law only n, g and x: another rule changes contact_normal, contact_gap and contact_at
+// below and nothing in the search.
 //
 // clang-format off
 // case            feature     normal n          places                         height h of place x
@@ -41,10 +41,10 @@
 // translational distance between two convex polyhedra", ICRA 1986. The points are chosen as in
 // Gregorius, "Robust contact creation for physics simulations", GDC 2015; the flat edges are ours.
 //
-// Who asks: contact_manifold.hpp proves that the rule gives no more than one point, or collects the
-// points within reach and keeps the most useful ones; detection_part.cpp turns them to the world
-// frame. Places are collected by their heights, so that a rule whose gaps are smaller than the
-// heights misses some at the rim.
+// The callers: contact_manifold.hpp proves that the rule gives no more than one point, or collects
+// the points within reach and keeps the most useful ones; detection_part.cpp turns them to the
+// world frame. Places are collected by their heights, so that a rule whose gaps are smaller than
+// the heights misses some at the rim.
 
 #include "geometry/contact/contact_point.hpp"
 #include "geometry/contact/separating_axis.hpp"
@@ -60,11 +60,11 @@ struct ManifoldPoint {
 
 // ---- the normal
 
-/// Of all points of a pair of polyhedra: unit, in a's frame, from a to b.
+/// The normal of all points of a pair of polyhedra: unit, in a's frame, from a to b.
 inline Vec3 contact_normal(const PairFrame& /*pair*/, const SeparatingAxis& axis) {
   return axis.direction;
 }
-/// Of all points on a plane: unit, world frame, into the free side. `rotation`: R_WB of the plane.
+/// The same on a plane: unit, world frame, into the free side. `rotation`: R_WB of the plane.
 inline Vec3 contact_normal(const Mat3& rotation, const Plane& plane) {
   return rotation * plane.normal;
 }
@@ -76,21 +76,21 @@ struct ClippedPoint {
   Vec3 position;  ///< in the reference body's frame [m]
   double height;  ///< over the reference face [m]; set by set_heights()
   std::uint64_t key;
-  int next_edge;  ///< runs to the next corner: an edge e of the incident body, or ~k for side k of
-                  ///< the reference face
+  int next_edge;  ///< to the next corner: edge e of the incident body, or ~k for side k of the
+                  ///< reference face
 };
 
-/// Of a place x on the other body over a reference face, in that face's frame [m].
+/// The height of a place x on the other body over a reference face, in that face's frame [m].
 inline double height_over_face(const CollisionShape::Face& face, const Vec3& x) {
   return face.normal.dot(x) - face.offset;
 }
-/// Sets the heights of all corners of the common part of two faces, which the planes on the sides
-/// of the reference face have cut.
+/// Sets the heights of all corners of the common part of two faces that the planes on the sides of
+/// the reference face have cut out.
 inline void set_heights(std::span<ClippedPoint> corners, const CollisionShape::Face& face) {
   for (ClippedPoint& corner : corners) corner.height = height_over_face(face, corner.position);
 }
-/// The same for corners cut, and heights measured, along `direction`: a unit vector out of the
-/// reference face, in its frame.
+/// The same where corners are cut, and heights measured, along `direction`: a unit vector out of
+/// the reference face, in its frame.
 inline void set_heights(std::span<ClippedPoint> corners, const CollisionShape::Face& face,
                         const Vec3& direction) {
   const double scale = 1.0 / face.normal.dot(direction);
@@ -101,7 +101,7 @@ inline void set_heights(std::span<ClippedPoint> corners, const CollisionShape::F
 ClippedPoint vertex_on_face(const PairFrame& pair, const SeparatingAxis& axis,
                             const CollisionShape::Face& face, const Vec3& vertex);
 /// The closest points of the axis' two edges, as a place on b's surface in a's frame. The lines of
-/// bodies apart may be closest beyond the edges' ends: the points are then held at the ends.
+/// bodies apart may be closest beyond the edges' ends; the points are then held at the ends.
 ClippedPoint edges_cross(const PairFrame& pair, const SeparatingAxis& axis,
                          const CollisionShape::Edge& a, const CollisionShape::Edge& b);
 
@@ -113,23 +113,23 @@ struct EdgesMeeting {
   int face_a, face_b;         ///< of the two faces beside each edge, the one facing the other body
   bool flat_on_a, flat_on_b;  ///< the other body lies nearly flat on that face
   bool across;                ///< the edges are not nearly parallel
-  /// Neither body lies flat on the other: the crossing is the only point. An edge along the
+  /// True if neither body lies flat on the other: the crossing is the only point. An edge along the
   /// face's own side has no second end on the face, hence "across".
   bool is_sharp() const {
     return !(flat_on_a && flat_on_b) && !(across && (flat_on_a || flat_on_b));
   }
-  /// Of flat edges: the body (0 = a) whose face is the reference.
+  /// For flat edges: the body (0 = a) whose face is the reference.
   int reference() const { return flat_on_a ? 0 : 1; }
 };
 
 // ---- the gaps and the points
 
-/// Along the normal [m], of a place at this height along the axis' direction.
+/// The gap along the normal [m] of a place at this height along the axis' direction.
 inline double contact_gap(const PairFrame& /*pair*/, const SeparatingAxis& /*axis*/,
                           double height) {
   return height;
 }
-/// Midway between the surfaces, from the place on b's surface or on a's.
+/// The point midway between the surfaces, from the place on b's surface or on a's.
 inline Vec3 midway_from_b(const Vec3& on_b, double gap, const Vec3& normal) {
   return on_b - 0.5 * gap * normal;
 }

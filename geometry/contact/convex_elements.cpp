@@ -54,7 +54,7 @@ void ConvexElements::place(std::span<const Pose> bodies, std::span<const double>
     if (element.is_image) poses_[e].position += period_.vector;
     reach_[e] = reach[element.body];
     if (ahead.empty()) continue;
-    const Pose& next = ahead[element.body];  // whole periods are those of now
+    const Pose& next = ahead[element.body];  // shifted by as many whole periods as at present
     ahead_[e].rotation = next.rotation * element.pose.rotation;
     ahead_[e].position = poses_[e].position + (next.position - body.position) +
                          next.rotation * element.pose.position -

@@ -12,7 +12,7 @@ DetectedBodies::DetectedBodies(std::vector<ContactShape> bodies)
       is_image(shapes.size(), 0),
       rotations(shapes.size()),
       travel(shapes.size()) {
-  // Bodies of one polyhedron share its tables.
+  // Bodies with the same polyhedron share its tables.
   std::map<const Polyhedron*, int> number;
   std::vector<const Polyhedron*> distinct;
   for (const ContactShape& body : shapes) {
@@ -35,8 +35,8 @@ void DetectedBodies::take(std::span<const Pose> new_poses, std::span<const doubl
   if (previous_.empty()) previous_.assign(poses.begin(), poses.end());
   run_each(team, count(), /*together=*/64, [&](int i) {
     rotations[i] = poses[i].rotation.toRotationMatrix();
-    // Motion summed up step by step: of two times, the difference of the sums bounds the motion
-    // between.
+    // The motion is summed up step by step: the difference of the sums at two times bounds the
+    // motion between them.
     const Travel step = step_bound(previous_[i], poses[i]);
     travel[i].shift += step.shift;
     travel[i].turn += step.turn;
@@ -56,8 +56,8 @@ void DetectionPart::take_range(int begin, int end, size_t pairs) {
   begin_ = begin;
   end_ = end;
   if (pairs <= records_.touching.capacity()) return;
-  // Room for all and for longer lists, though half of them touch: pages that nobody writes on take
-  // no memory, and to grow would copy.
+  // Reserves room for all pairs and for longer lists, though only half of them touch: pages that
+  // are never written take no memory, and growing would copy.
   const size_t room = pairs + pairs / 2;
   records_.touching.reserve(room);
   records_.is_kept.reserve(room);
@@ -123,14 +123,14 @@ void DetectionPart::choose_pairs(const BroadPhase& broad_phase) {
   }
 }
 
-/// Notes that the pair is `separation` [m] apart now, which shrinks by no more than the origins
-/// move and the arms times the turns.
+/// Records that the pair is `separation` [m] apart. This shrinks by no more than the shifts of the
+/// origins plus the arms times the turns.
 void DetectionPart::bound_separation(CandidatePair& pair, double arm_a, double arm_b,
                                      double separation) const {
   pair.arm_a = arm_a;
   pair.arm_b = arm_b;
   const double use = bound_use(pair);
-  // far above the rounding of separations and of sums over 1e7 steps
+  // 1e-9 is far above the rounding of separations and of sums over 1e7 steps
   pair.apart_below =
       separation + use -
       1e-9 * (bodies_.bounds[pair.a].circumradius + bodies_.bounds[pair.b].circumradius + use);
@@ -138,9 +138,9 @@ void DetectionPart::bound_separation(CandidatePair& pair, double arm_a, double a
 
 /// The same for a pair that its axis separates, with the origins `distance` [m] apart. A face's
 /// separation is the least n.(x - p) over the other body's points x, less the face's offset, with p
-/// the origin of the face's body. It shrinks by no more than x and p move and by that body's turn
+/// the origin of the face's body. It shrinks by no more than x and p move plus that body's turn
 /// times |x - p|. A separating face is found whatever the hint, so that a bound does not change the
-/// outcome. Two edges may cease to be a facet: they give no bound.
+/// outcome. Two edges may cease to be a facet, so they give no bound.
 void DetectionPart::bound_separated(CandidatePair& pair, double distance, double separation) const {
   const double radius_a = bodies_.bounds[pair.a].circumradius,
                radius_b = bodies_.bounds[pair.b].circumradius;
@@ -150,7 +150,7 @@ void DetectionPart::bound_separated(CandidatePair& pair, double distance, double
     bound_separation(pair, radius_a, distance + radius_a, separation);
 }
 
-/// Contacts of all bodies with a plane: every vertex within reach is a point.
+/// Appends the contacts of all bodies with a plane: every vertex within reach is a point.
 void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts) {
   const std::span<const Pose> poses = bodies_.poses;
   const std::span<const double> reach = bodies_.reach;
@@ -190,7 +190,7 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   const Vec3 between = poses[b].position - poses[a].position;
   const double radii = bodies_.bounds[a].circumradius + bodies_.bounds[b].circumradius;
   if (between.squaredNorm() > (radii + alert) * (radii + alert)) {
-    bound_separation(candidate, 0.0, 0.0, between.norm() - radii);  // of the spheres
+    bound_separation(candidate, 0.0, 0.0, between.norm() - radii);  // separation of the spheres
     return;
   }
 
@@ -240,9 +240,9 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   append(candidate, pair, axis, manifold_.points(pair, axis, limits), contacts);
 }
 
-/// A fixed body's side is no obstacle where the motion until the next detection leads past it: then
-/// another facet separates the bodies best there. If it does so now too, it stands for the pair
-/// where one lies over the other; elsewhere there is nothing yet to meet. If it does not yet, it
+/// Lets a pair pass where its motion until the next detection leads past a fixed body's side:
+/// another facet then separates the bodies best. If that facet does so at present too, it replaces
+/// the pair's axis and gives points only where one body lies over the other. If it does not yet, it
 /// must do so in time, or the way leads through the fixed body. False: the pair's own axis stands.
 bool DetectionPart::passes(const CandidatePair& candidate, ManifoldLimits& limits,
                            SeparatingAxis& axis, std::vector<ContactPoint>& contacts) {
@@ -266,18 +266,18 @@ bool DetectionPart::passes(const CandidatePair& candidate, ManifoldLimits& limit
   const double separation =
       instead ? instead->separation
               : separation_along(bodies_.ahead[a].rotation * contact_normal(then, last), a, b);
-  if (separation < -limits.joint)  // in time: before the pair's own facet closes
+  if (separation < -limits.joint)  // in time means before the pair's own facet closes
     return closing && last.separation >= -limits.joint &&
            -(separation + limits.joint) * (axis.separation - closing->separation) <=
                (axis.separation + limits.joint) * (last.separation - separation);
-  if (!instead) return last.separation >= -limits.joint;  // no facet yet
+  if (!instead) return last.separation >= -limits.joint;  // not a facet yet
   axis = *instead;
   limits.is_passing = true;
   append(candidate, now, axis, manifold_.points(now, axis, limits), contacts);
   return true;
 }
 
-/// Of bodies a and b now, along a unit vector from a to b in the world frame [m].
+/// The present separation of a and b along a unit vector from a to b in the world frame [m].
 double DetectionPart::separation_along(const Vec3& normal_W, int a, int b) {
   const auto least = [&](int body, const Vec3& direction) {
     const auto& vertices = bodies_.shape(body)->vertices();
@@ -303,8 +303,8 @@ void DetectionPart::append(const CandidatePair& candidate, const PairFrame& fram
   if (contacts.size() > before) ++counters_.manifolds;
 }
 
-/// Asks the cache for the record of a pair that is looked at a few pairs from now: the list of
-/// pairs is read in order, its records nearly so.
+/// Prefetches the record of a pair that is tested a few pairs later: the list of pairs is read in
+/// order, its records nearly so.
 void DetectionPart::fetch(const BroadPhase& broad_phase, size_t next) const {
   if (next >= chosen_.size()) return;
   const int record = broad_phase.pairs()[chosen_[next]].touching;

@@ -1,6 +1,6 @@
 #pragma once
-// A share of the pairs that a detection looks at, with its memory of them and scratch memory of its
-// own, so that threads can look at several shares at the same time.
+// A part of the pairs that a detection tests, with its memory of them and scratch memory of its
+// own, so that threads can work on several parts at the same time.
 
 #include <span>
 #include <vector>
@@ -13,12 +13,12 @@
 
 namespace ballast {
 
-/// The bodies as a detection finds them: shapes, poses, and how far each has moved. Read by all
-/// parts of a detection, written only between detections.
+/// The bodies at a detection: shapes, poses, and how far each has moved. All parts of a detection
+/// read them; detect() writes them before the parts begin.
 struct DetectedBodies {
   explicit DetectedBodies(std::vector<ContactShape> bodies);
 
-  /// The poses and reaches of this call; both must outlive it. The team shares the work.
+  /// Takes the poses and reaches of this call; both must outlive it. `team` shares the work.
   void take(std::span<const Pose> new_poses, std::span<const double> new_reach,
             WorkerTeam* team = nullptr);
 
@@ -30,13 +30,13 @@ struct DetectedBodies {
 
   std::vector<ContactShape> shapes;
   std::vector<char> is_fixed;
-  std::vector<char> is_image;          ///< of a body in another period: planes meet the body itself
+  std::vector<char> is_image;          ///< an image one period on: planes meet only the body itself
   std::vector<CollisionShape> tables;  ///< one per distinct polyhedron, in the order of first use
   std::vector<int> table_of;           ///< of each body; -1 for planes
   std::vector<BodyBounds> bounds;      ///< of all bodies, in one place; zero for planes
 
   std::span<const Pose> poses;    ///< of this call
-  std::span<const Pose> ahead;    ///< at the next one, if nothing is met; empty: not known
+  std::span<const Pose> ahead;    ///< at the next call if nothing is met; empty: unknown
   std::vector<Mat3> rotations;    ///< R_WB at these poses
   std::span<const double> reach;  ///< of this call [m]
   std::vector<Travel> travel;     ///< since the first call
@@ -45,30 +45,30 @@ struct DetectedBodies {
   std::vector<Pose> previous_;  // poses of the last call
 };
 
-/// The planes and pairs whose first body a lies in a range. The contacts of part 0, then those of
-/// part 1 and so on, are in the order of all contacts.
+/// Detects contacts of the planes and pairs whose first body a lies in a range. The contacts of
+/// part 0, then those of part 1 and so on, are in the order of all contacts.
 class DetectionPart {
  public:
   DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings);
 
-  /// From now on its bodies are begin <= a < end, with this number of pairs. The memory of those
-  /// that were another part's comes by adopt().
+  /// Sets its bodies to begin <= a < end, with this number of pairs. The memory of pairs that were
+  /// another part's comes by adopt().
   void take_range(int begin, int end, size_t pairs);
   int begin() const { return begin_; }
   int end() const { return end_; }
-  /// Of the memories of touching pairs only those named by keep() stay after drop_others().
+  /// drop_others() drops the memories of all touching pairs but those named by keep().
   void keep(const CandidatePair& pair) { records_.is_kept[pair.touching] = 1; }
   void drop_others();
-  /// Takes over the memory of a pair.
+  /// Takes over the memory of a pair from another part.
   void adopt(CandidatePair& pair, DetectionPart& from);
 
   /// Appends the contacts of its range, sorted by (body_a, body_b, feature).
   void detect(BroadPhase& broad_phase, std::vector<ContactPoint>& contacts);
 
-  /// Of the last detect().
+  /// The counters of the last detect().
   const DetectionCounters& counters() const { return counters_; }
-  std::vector<ContactPoint> found;  ///< a place for its contacts, for the caller's use
-  size_t first_found = 0;           ///< where they stand among all
+  std::vector<ContactPoint> found;  ///< its contacts, for the caller's use
+  size_t first_found = 0;           ///< where these begin among all contacts
 
  private:
   void choose_pairs(const BroadPhase& broad_phase);
@@ -85,8 +85,8 @@ class DetectionPart {
   double bound_use(const CandidatePair& pair) const;
   bool boxes_within_reach(const CandidatePair& pair, double alert) const;
 
-  /// The memories of touching pairs. Each stays at its place, and the places of pairs that are no
-  /// longer listed are given to the next ones.
+  /// The memories of touching pairs. Each stays at its place; the places of pairs that are no
+  /// longer listed are reused.
   struct Records {
     std::vector<TouchingPair> touching;
     std::vector<int> vacant;
@@ -101,7 +101,7 @@ class DetectionPart {
   ContactManifold manifold_;
   Heights heights_;
   Records records_;
-  std::vector<int> chosen_;  // candidate pairs that must be looked at
+  std::vector<int> chosen_;  // candidate pairs that must be tested
   std::vector<int> near_;    // bodies whose balls are within reach of a plane
   DetectionCounters counters_;
 };

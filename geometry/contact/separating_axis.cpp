@@ -14,8 +14,8 @@ struct Lowest {
 };
 
 Lowest lowest(const double* values, int padded) {
-  // Least and second least value of every lane, and then of all lanes together: whatever is not the
-  // least of two is a candidate for the second.
+  // The least and second least value of every lane, and then of all lanes together: the larger of
+  // two values is a candidate for the second least.
   Lanes least = Eigen::Map<const Lanes>(values);
   Lanes second = Lanes::Constant(1e200);
   for (int i = 8; i < padded; i += 8) {
@@ -32,8 +32,8 @@ Lowest lowest(const double* values, int padded) {
   return result;
 }
 
-/// Cross product of two edges, freed of its components along them. Of nearly parallel edges these
-/// components are the only error that matters, as the edges are long in that direction.
+/// The cross product of two edges, without its components along them. For nearly parallel edges
+/// these components are the only error that matters, as the edges are long in that direction.
 Vec3 refined_cross(const Vec3& u, const Vec3& v) {
   Vec3 n = u.cross(v);
   n -= u * (n.dot(u) / u.squaredNorm());
@@ -69,8 +69,8 @@ SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
 FaceSeparation face_separation(const ShapePair& pair, int own, int f, Heights& heights) {
   const CollisionShape::Face face = pair.shape[own]->face(f);
   const AffineRows& vertices = pair.shape[1 - own]->vertices();
-  // s(n) = min_B n.x - max_A n.x, and max_A is the face's own offset: the lowest vertex of the
-  // other body over the face is all that is looked for.
+  // s(n) = min_B n.x - max_A n.x, and max_A is the face's own offset: only the lowest vertex of the
+  // other body over the face is sought.
   vertices.evaluate(pair.other[1 - own].rotation * face.normal, heights.data());
   const Lowest low = lowest(heights.data(), vertices.padded());
   return {face_separation_at(pair, own, face, low.value), low.row, low.next - low.value};
@@ -94,8 +94,8 @@ std::optional<EdgeSeparation> edge_facet(const PairFrame& pair, const CollisionS
   facet.along_b = along_b;
   facet.weight_a = std::min(std::abs(left_a), std::abs(right_a));
   facet.weight_b = std::min(std::abs(left_b), std::abs(right_b));
-  // Two directions are across both edges, +-along_a x along_b. On a's arc from left to right around
-  // along_a lies the one with the plus where left_a > 0. What lies on it points out of a.
+  // Two directions are across both edges, +-along_a x along_b. The one with the plus lies on a's
+  // arc from left to right around along_a if left_a > 0. Directions on this arc point out of a.
   const Vec3 cross = along_a.cross(along_b);
   const double sign = left_a > 0.0 ? 1.0 : -1.0, length = cross.norm(),
                sine = length / (a.length * b.length);
@@ -115,7 +115,7 @@ std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int
   std::optional<EdgeSeparation> facet = edge_facet(pair, edge_a, edge_b);
   if (!facet || !facet->nearly_parallel) return facet;
   // The direction of nearly parallel edges is uncertain by rounding / sine: the edges may not be
-  // the supports along it. The lowest and highest vertices say how far the bodies are apart.
+  // the supports along it. The separation comes from the lowest and highest vertices.
   const double sign = facet->cross > 0.0 ? 1.0 : -1.0;
   facet->direction = sign * refined_cross(edge_a.along, facet->along_b).normalized();
   a.vertices().evaluate(-facet->direction, heights.data());

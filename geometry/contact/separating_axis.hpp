@@ -4,8 +4,8 @@
 // For a unit vector n let s(n) = min_B n.x - max_A n.x be the gap along n. The separation is the
 // largest s over the facets of B - A, whose normals are A's face normals, B's face normals
 // reversed, and cross products of an edge of A and an edge of B whose arcs on the Gauss sphere
-// cross. Of an overlapping pair it is minus the penetration depth, the largest s(n) of all n; of a
-// pair apart it is positive, and the distance when the nearest points lie inside the facet's two
+// cross. For an overlapping pair it is minus the penetration depth, the largest s(n) of all n. For
+// a pair apart it is positive; it is the distance if the nearest points lie inside the facet's two
 // features.
 
 #include <cmath>
@@ -26,19 +26,19 @@ struct RelativePose {
   }
 };
 
-/// Where two bodies are and how large; index 0 is a, 1 is b.
+/// The relative pose and the sizes of two bodies; index 0 is a, 1 is b.
 struct PairFrame {
   PairFrame(const BodyBounds& a, const BodyBounds& b, const RelativePose& b_in_a)
       : bounds{&a, &b}, other{b_in_a, b_in_a.inverse()}, size_(a.circumradius + b.circumradius) {
-    // of few pairs a root
+    // few pairs need the root
     const double apart = b_in_a.position.squaredNorm() / 256.0;
     if (apart > size_ * size_) size_ = std::sqrt(apart);
   }
 
   const BodyBounds* bounds[2];
   RelativePose other[2];  ///< other[i]: the other body's pose in the frame of body i
-  /// The length that rounding errors and tolerances scale with [m]: of the bodies, or of the
-  /// distance to which their coordinates are rounded where they are far apart.
+  /// The length that rounding errors and tolerances scale with [m]: the sum of the circumradii or,
+  /// for bodies far apart, 1/16 of the distance that governs the rounding of their coordinates.
   double size() const { return size_; }
 
  private:
@@ -64,7 +64,7 @@ struct AxisFeature {
     return body == 0 ? AxisFeature{AxisKind::face_of_a, face, -1}
                      : AxisFeature{AxisKind::face_of_b, -1, face};
   }
-  /// The body that the face belongs to, 0 = a; of two edges 0.
+  /// The body that the face belongs to, 0 = a; 0 for two edges.
   int reference() const { return kind == AxisKind::face_of_b ? 1 : 0; }
   int face() const { return reference() == 0 ? a : b; }
   bool operator==(const AxisFeature&) const = default;
@@ -120,13 +120,13 @@ struct EdgeSeparation {
       weight_b;  ///< for CollisionShape::Edge::drop: the smaller |normal of a face beside the edge
                  ///< . other edge|
 };
-/// Separation along the facet of edges ea of a and eb of b; nothing if they do not form one, or
-/// count as parallel.
+/// Separation along the facet of edges ea of a and eb of b; empty if they form no facet or count as
+/// parallel.
 std::optional<EdgeSeparation> edge_separation(const ShapePair& pair, int ea, int eb,
                                               Heights& heights);
 
-/// The axis of one feature. Empty if the feature is none, or no facet at this pose. Depends on the
-/// pair alone.
+/// The axis of one feature. Empty if the feature is none or no facet at this pose. It depends on
+/// the pair and the feature alone.
 std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFeature& feature,
                                             Heights& heights);
 
@@ -141,8 +141,8 @@ bool is_proved_best(const PairFrame& pair, double face_isolation, const Separati
 // The same axes, to the same bits, from the records of the features alone. The memory of a touching
 // pair (touching_pair.hpp) holds these records and nothing else of the shapes.
 
-/// The facet of two edges, or nothing. Of nearly parallel ones direction and separation are left
-/// out: their shapes decide.
+/// The facet of two edges, or nothing. For nearly parallel edges direction and separation are not
+/// set: they need the shapes' tables (edge_separation).
 std::optional<EdgeSeparation> edge_facet(const PairFrame& pair, const CollisionShape::Edge& a,
                                          const CollisionShape::Edge& b);
 SeparatingAxis edge_axis(const PairFrame& pair, const AxisFeature& feature,
@@ -155,8 +155,8 @@ inline double face_separation_at(const PairFrame& pair, int own, const Collision
                                  double height) {
   return height + (face.normal.dot(pair.other[own].position) - face.offset);
 }
-/// Leaves support and clearance to the caller. `side_at`: side k of the face, of `sides`. `vertex`:
-/// the other body's lowest one over the face, in its own frame.
+/// The axis of a face, without support and clearance. `side_at`: side k of the face, of `sides`.
+/// `vertex`: the other body's lowest vertex over the face, in its own frame.
 template <class SideAt>
 SeparatingAxis face_axis(const PairFrame& pair, const AxisFeature& feature,
                          const CollisionShape::Face& face, int sides, const SideAt& side_at,

@@ -12,7 +12,7 @@ constexpr double largest = std::numeric_limits<double>::max();
 /// The lowest of an incident face's corners over a reference face, and how far it lies below the
 /// others.
 struct LowestCorner {
-  int place = 0;  // in the face's loop; of equals the smallest vertex
+  int place = 0;  // in the face's loop; the smallest vertex among equals
   double height = largest, clearance = largest;
 };
 LowestCorner lowest_corner(std::span<const CollisionShape::Corner> corners, const Vec3& direction) {
@@ -82,7 +82,7 @@ void TouchingPair::record_faces(const ShapePair& pair, int support, double turn,
   for (int k = 0; k < count; ++k) faces.incident[k] = other.corner(incident, k);
   faces.turn = turn;
   const std::span<const CollisionShape::Corner> corners(faces.incident.data(), count);
-  // All other vertices' heights over the support's.
+  // The least height of all other vertices over the support vertex.
   const Vec3 direction = pair.other[1 - own].rotation * faces.reference.normal;
   other.vertices().evaluate(direction, heights.data());
   const double lowest = heights[support];
@@ -140,14 +140,14 @@ TouchingPair::Look TouchingPair::look_at(const Faces& faces, const PairFrame& pa
   axis.support = support.vertex;
   axis.clearance = clearance;
   if (!is_proved_best(pair, reference.isolation, axis)) return Look::undecided;
-  // One point, or the common part of the two faces if the incident face is the same still.
+  // One point, or the common part of the two faces if the incident face is still the same.
   if (is_lone_vertex(pair, axis, limits)) {
     points =
         manifold.lone_point(pair, axis, vertex_on_face(pair, axis, reference, support.position));
     return Look::touching;
   }
   if (!(faces.lead[low.place] - 2.0 * turned > 2.0 * equal_cosines)) return Look::undecided;
-  std::array<CollisionShape::Corner, most> corners;  // of which the names alone are read
+  std::array<CollisionShape::Corner, most> corners;  // only their vertex and edge indices are read
   for (size_t k = 0; k < sides.size(); ++k)
     corners[k] = {faces.corner[k].vertex, faces.corner[k].edge, Vec3::Zero()};
   points = manifold.points(

@@ -21,10 +21,10 @@ class TouchingPair {
   void record(const ShapePair& pair, const SeparatingAxis& axis, double turn, Heights& heights);
 
   enum class Look { undecided, apart, touching };
-  /// Looks at the pair in its present pose.
-  /// apart: the axis separates by more than limits.alert; of `axis` the separation is set.
-  /// touching: the axis is proved to be the best, and `points` are its points; axis.clearance is
-  /// then a lower bound. They are valid until the manifold is asked again.
+  /// Tests the pair in its present pose.
+  /// apart: the axis separates by more than limits.alert; only the separation of `axis` is set.
+  /// touching: the axis is proved to be the best; its clearance is a lower bound. `points` are the
+  /// pair's points, valid until the manifold is used again.
   Look look(const PairFrame& pair, double turn, const ManifoldLimits& limits,
             ContactManifold& manifold, SeparatingAxis& axis,
             std::span<const ManifoldPoint>& points) const;
@@ -32,7 +32,7 @@ class TouchingPair {
  private:
   static constexpr size_t most = 4;  ///< faces with more corners are left to the shapes' tables
 
-  /// What a corner of a face's loop is called.
+  /// The indices of a corner's vertex and edge.
   struct CornerNames {
     std::uint16_t vertex, edge;
   };
@@ -43,15 +43,15 @@ class TouchingPair {
     std::array<CornerNames, most> corner;
     int side_count, incident_count;
     std::array<CollisionShape::Corner, most> incident;
-    /// Of the other body's vertices that are no corners of the incident face: how much higher than
-    /// the lowest corner they were when recorded [m].
+    /// The least height over the support vertex, when recorded, of those of the other body's
+    /// vertices that are no corners of the incident face [m].
     double clearance;
-    /// Of each corner: by how much in cosine the incident face opposed the reference face more than
-    /// any other face at that corner did.
+    /// For each corner: by how much in cosine the incident face opposed the reference face more
+    /// than any other face at that corner did.
     std::array<double, most> lead;
-    double turn;  ///< of both bodies until then (Travel). Since then, heights have changed by no
-                  ///< more than the turn times the other body's diameter, cosines by no more than
-                  ///< the turn.
+    double turn;  ///< sum of both bodies' Travel::turn when recorded. Heights have changed since
+                  ///< by no more than its increase times the other body's diameter, cosines by
+                  ///< no more than its increase.
   };
   /// A face beside an edge.
   struct Corners {
@@ -63,10 +63,10 @@ class TouchingPair {
       return {corner.data(), static_cast<size_t>(count)};
     }
   };
-  /// Two edges and, if they are flat, what is needed of the faces beside them.
+  /// Two edges and, if they are flat, the data needed of the faces beside them.
   struct Edges {
     CollisionShape::Edge a, b;
-    int face[2];  ///< those faces; -1: nothing is kept
+    int face[2];  ///< those faces; -1: not recorded
     Corners beside[2];
   };
 

@@ -21,8 +21,8 @@ double sixfold_cone(size_t count, const Corner& corner) {
 
 double BoxClipper::volume(const Polyhedron& polyhedron, const Pose& pose, const Vec3& lo,
                           const Vec3& hi, double full_volume) {
-  // Bounding spheres settle nearly all grains of a packing: wholly
-  // outside the box, or wholly inside.
+  // Bounding spheres decide nearly all grains of a packing, which lie wholly outside the box or
+  // wholly inside.
   const Vec3 radius = Vec3::Constant(polyhedron.circumradius());
   const Vec3 sphere_lo = pose.position - radius, sphere_hi = pose.position + radius;
   if ((sphere_lo.array() >= hi.array()).any() || (sphere_hi.array() <= lo.array()).any())
@@ -30,7 +30,7 @@ double BoxClipper::volume(const Polyhedron& polyhedron, const Pose& pose, const 
   if ((sphere_lo.array() >= lo.array()).all() && (sphere_hi.array() <= hi.array()).all())
     return full_volume;
 
-  // Then the box of the vertices in the world frame, which says by which planes the solid is cut.
+  // Then the vertices' box in the world frame shows which planes cut the solid.
   const Mat3 rotation = pose.rotation.toRotationMatrix();
   world_.clear();
   for (const Vec3& vertex : polyhedron.vertices())
@@ -39,7 +39,7 @@ double BoxClipper::volume(const Polyhedron& polyhedron, const Pose& pose, const 
   if ((low.array() >= hi.array()).any() || (high.array() <= lo.array()).any()) return 0.0;
 
   // Along a direction that both planes cut, inside = (below hi) - (below lo). Every combination of
-  // such terms is one `choice`: a bit for each of these directions.
+  // such terms is one `choice`, with a bit for each of these directions.
   HalfSpace cuts[3];
   int count = 0, both[3], both_count = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -69,7 +69,7 @@ double BoxClipper::cut_volume(const Polyhedron& polyhedron, Cuts cuts) {
   // By the divergence theorem 3 V is the sum over faces of area times height over the apex, and a
   // triangle (a, b, c) of a face adds det(a, b, c) to 6 V. The faces that the cut makes lie in
   // planes through the apex and add nothing.
-  Vec3 apex = world_[0];  // free along the directions that are not cut
+  Vec3 apex = world_[0];  // arbitrary along directions that are not cut
   for (const HalfSpace& cut : cuts) apex[cut.axis] = cut.at;
   points_.clear();
   outside_.clear();
@@ -89,7 +89,7 @@ double BoxClipper::cut_volume(const Polyhedron& polyhedron, Cuts cuts) {
 
 /// Six times the volume between the apex and the part of a face within all half-spaces.
 double BoxClipper::sixfold_part(std::span<const int> loop, Cuts cuts) {
-  // A face wholly beyond one half-space is gone; half-spaces that hold all its corners need no cut.
+  // A face wholly outside one half-space adds 0; half-spaces that hold all its corners do not cut.
   unsigned any = 0, all = ~0u;
   for (const int v : loop) {
     any |= outside_[v];
@@ -111,7 +111,7 @@ void BoxClipper::clip_face(std::span<const int> loop, Cuts cuts, unsigned any) {
     if (!(any >> k & 1)) continue;
     const int axis = cuts[k].axis;
     next_polygon_.clear();
-    // Every edge a -> b gives a where that is inside, and the point at which it crosses the plane.
+    // Every edge a -> b adds a, if a is inside, and the point where the edge crosses the plane.
     for (size_t i = 0; i < polygon_.size(); ++i) {
       const Vec3 &a = polygon_[i], &b = polygon_[i + 1 < polygon_.size() ? i + 1 : 0];
       const double height_a = cuts[k].sign * a[axis], height_b = cuts[k].sign * b[axis];

@@ -11,13 +11,13 @@ namespace ballast {
 /// Volume of (pose * polyhedron) within [lo, hi]. A workspace: no allocation once its buffers have
 /// grown.
 ///
-/// The divergence theorem about a point o on all the planes that cut (at most one in each
-/// direction; a polyhedron that both planes of a direction cut is taken as a difference of two):
-/// the faces that the cut makes pass through o and add nothing, so that only the old faces,
-/// clipped, are summed, and the cut faces are never built.
+/// Uses the divergence theorem about a point o on all the planes that cut: the faces that the cut
+/// makes lie in planes through o and add nothing, so that only the clipped old faces are summed and
+/// the cut faces are never built. At most one plane cuts in each direction; a polyhedron that both
+/// planes of a direction cut is taken as a difference of two.
 class BoxClipper {
  public:
-  /// `full_volume`: of the whole polyhedron [m^3], returned when the box holds it all. The
+  /// `full_volume`: that of the whole polyhedron [m^3], returned when the box holds it all. The
   /// polyhedron must be bounded by its circumradius about its origin, as every Polyhedron is. lo <=
   /// hi.
   double volume(const Polyhedron& polyhedron, const Pose& pose, const Vec3& lo, const Vec3& hi,
@@ -36,8 +36,8 @@ class BoxClipper {
   void clip_face(std::span<const int> loop, Cuts cuts, unsigned any);
 
   std::vector<Vec3> world_;        // vertices, world frame [m]
-  std::vector<Vec3> points_;       // vertices, from the apex o
-  std::vector<unsigned> outside_;  // of each vertex: bit k set: outside the k-th half-space
+  std::vector<Vec3> points_;       // vertices, relative to the apex o [m]
+  std::vector<unsigned> outside_;  // per vertex: bit k set means outside half-space k
   std::vector<Vec3> polygon_, next_polygon_;
 };
 

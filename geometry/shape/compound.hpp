@@ -1,5 +1,5 @@
 #pragma once
-// Bodies of several convex parts: from placed solids to one body frame; and walls from meshes.
+// Combines placed convex solids into a body with one body frame; makes walls from meshes' faces.
 
 #include <memory>
 #include <span>
@@ -25,7 +25,7 @@ struct CompoundShape {
   Pose pose;                    ///< body frame in the frame that the parts were given in
 };
 
-/// Where parts overlap, both count. Throws InvalidPolyhedron where there is no part.
+/// Where parts overlap, both count. Throws InvalidPolyhedron if there is no part.
 CompoundShape make_compound(std::span<const PlacedShape> parts);
 
 /// The solid between a flat, strictly convex polygon and its copy `thickness` [m] behind it,

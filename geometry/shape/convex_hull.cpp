@@ -23,24 +23,24 @@ using Loops = std::vector<std::vector<int>>;
 
 /// Points closer than this are one point.
 constexpr double weld = 1e-9;
-/// Thinner sets are flat: they would not outlive the tolerances that follow.
+/// Thinner sets count as flat: they would not survive the tolerances that follow.
 constexpr double thinnest = 1e-8;
 
-/// What is one face, and what is no corner.
+/// Decides which facets are one face, and which points are no corner.
 struct Tolerance {
   /// qhull's own error bound, option 'E': it merges facets that are coplanar within a few of these.
   double merge;
   /// Corners of faces that rise less than this over the chord of their neighbours are dropped: they
   /// would make needles, whose planes mean nothing.
   double corner;
-  /// Rounds after which too many corners are flat: a curve of many points has hundreds.
+  /// The most rounds of dropping flat corners, of which a curve of many points has hundreds.
   int most_rounds = 1 << 20;
 };
-/// A tenth of Polyhedron's tolerance, as a merged facet is flat only to several of it; corners
-/// above that tolerance of 1e-9 of a size that is at most 2 sqrt(3) half-extents.
+/// merge: a tenth of Polyhedron's tolerance, as a merged facet is flat only to several times merge.
+/// corner: above that tolerance of 1e-9 of a size that is at most 2 sqrt(3) half-extents.
 constexpr Tolerance exact_tolerance{1e-10, 4e-9};
-/// For the rare sets whose detail is of just the first's size, where qhull's merging goes too far
-/// or gives up: they are resolved instead.
+/// For the rare sets with details of just the size of exact_tolerance, where qhull's merging goes
+/// too far or gives up: here the details are resolved.
 constexpr Tolerance finer_tolerance{1e-14, 4e-9};
 
 /// One qhull run and its memory.
@@ -72,7 +72,7 @@ class QhullRun {
   }
 
  private:
-  /// qhull keeps two stores: large blocks, and a pool of small ones that is freed by itself.
+  /// qhull keeps two stores: large blocks, and a pool of small ones that is freed separately.
   void release() {
     qh_freeqhull(&qh_, !qh_ALL);
     int blocks, bytes;
@@ -92,7 +92,7 @@ class QhullRun {
       links.emplace_back(qh_pointid(qh, SETfirstt_(ridge->vertices, vertexT)->point),
                          qh_pointid(qh, SETsecondt_(ridge->vertices, vertexT)->point));
     }
-    // From corner to corner along the ridge that does not lead back, until the loop closes.
+    // Goes from corner to corner along the ridge that does not lead back, until the loop closes.
     std::vector<int> chain{links.front().first};
     for (int at = links.front().second; at != chain.front();) {
       chain.push_back(at);
@@ -109,7 +109,7 @@ class QhullRun {
     return chain;
   }
 
-  /// qhull's complaints, which are written for its own users.
+  /// Takes qhull's messages, which are written for its own users.
   const std::unique_ptr<FILE, int (*)(FILE*)> nowhere_{std::fopen("/dev/null", "w"), std::fclose};
   qhT qh_;
 };
@@ -140,8 +140,8 @@ void check_spatial(const std::vector<Vec3>& points) {
       return distance(a) < distance(b);
     });
   };
-  // Four points that span the set, each the farthest from what is there: a, a second one, c off the
-  // line through both, and one off the plane of the three. Flat sets fail at c or at the last.
+  // Four points span the set, each the farthest from those before: a, a second one, c off the line
+  // through both, and one off the plane of the three. Flat sets fail at c or at the last.
   const Vec3 a = farthest([&](const Vec3& p) { return (p - points[0]).norm(); });
   const Vec3 along = (farthest([&](const Vec3& p) { return (p - a).norm(); }) - a).normalized();
   const auto from_line = [&](const Vec3& p) { return (p - a - along * along.dot(p - a)).norm(); };
@@ -176,8 +176,8 @@ std::vector<int> distinct(const std::vector<Vec3>& points) {
   return kept;
 }
 
-/// Puts loops of a convex solid in one order, whoever listed them: outward, each from its smallest
-/// index, in ascending order.
+/// Puts the loops of a convex solid in one order that does not depend on who listed them: outward,
+/// each from its smallest index, in ascending order.
 void make_canonical(Loops& loops, std::span<const Vec3> points) {
   Vec3 inside = Vec3::Zero();
   double count = 0.0;
@@ -194,8 +194,8 @@ void make_canonical(Loops& loops, std::span<const Vec3> points) {
   std::sort(loops.begin(), loops.end());
 }
 
-/// The solid of these loops, outward; its vertices keep the order of the points, without those of
-/// no loop. Throws InvalidPolyhedron as Polyhedron's constructor.
+/// The solid of these outward loops. Its vertices keep the order of the points; points that are in
+/// no loop are left out. Throws InvalidPolyhedron as Polyhedron's constructor.
 Polyhedron solid_of(std::span<const Vec3> points, Loops loops) {
   std::vector<int> index(points.size(), -1);
   for (const auto& loop : loops)
@@ -211,9 +211,9 @@ Polyhedron solid_of(std::span<const Vec3> points, Loops loops) {
   return Polyhedron(std::move(vertices), loops);
 }
 
-/// The flattest corner of each face where it is flatter than `lowest_kept`, straight or re-entrant:
-/// merging leaves such behind too. At most one per face and none beside another: once it is gone,
-/// the hull of the other points may well keep the neighbour.
+/// The flattest corner of each face if it is flatter than `lowest_kept`; it may be straight or
+/// re-entrant, as merging leaves such corners too. At most one per face and none beside another:
+/// once one is gone, the hull of the other points may well keep its neighbour.
 std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points,
                               double lowest_kept) {
   std::vector<int> flat;
@@ -236,7 +236,7 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
         corner = loop[k];
       }
     }
-    // One corner of a face a round: its neighbours may rise enough once it is gone.
+    // Drops one corner of a face per round: its neighbours may rise enough once it is gone.
     if (corner < 0 || std::any_of(loop.begin(), loop.end(), listed)) continue;
     flat.push_back(corner);
     is_listed[static_cast<size_t>(corner)] = true;
@@ -251,8 +251,8 @@ Loops hull_loops(const std::vector<Vec3>& points, const Tolerance& tolerance) {
   for (int round = 0; kept.size() >= 4; ++round) {
     if (round == tolerance.most_rounds)
       throw InvalidPolyhedron("faces with many nearly straight corners");
-    // Only the points that are left are handed over, under new numbers; what comes back is put into
-    // the caller's numbers before it is judged.
+    // qhull gets only the points that are left, under new indices. Its loops are put back into the
+    // caller's indices before they are judged.
     std::vector<double> coordinates;
     for (const int i : kept)
       coordinates.insert(coordinates.end(), points[i].begin(), points[i].end());
@@ -268,9 +268,9 @@ Loops hull_loops(const std::vector<Vec3>& points, const Tolerance& tolerance) {
   throw InvalidPolyhedron("fewer than 4 distinct corners");
 }
 
-/// Moves corners to where the planes of their faces meet: least squares through the corners of each
-/// face, and the shortest way of each corner to its planes, by turns. A face with three corners is
-/// flat wherever they are, so only larger ones ask. Whether all come to agree.
+/// Moves corners to where the planes of their faces meet: by turns it fits each face's plane to its
+/// corners by least squares and moves each corner the shortest way to its planes. Triangles are
+/// flat wherever their corners are, so only larger faces count. Returns whether all come to agree.
 bool flatten(const Loops& loops, std::vector<Vec3>& points) {
   constexpr int most_turns = 200;  // corners of three faces need two
   constexpr double most_off = 1e-11;
@@ -282,7 +282,7 @@ bool flatten(const Loops& loops, std::vector<Vec3>& points) {
     large.push_back(static_cast<int>(f));
   }
   std::vector<Vec3> normal(large.size()), centre(large.size());
-  // Planes that are nearly parallel tell nothing across both: of squared singular values.
+  // Squared singular values below this part of the largest are ignored: nearly parallel planes.
   constexpr double parallel = 1e-10;
   double off = 1.0;
   for (int turn = 0; turn < most_turns && off > 1e-14; ++turn) {
@@ -293,7 +293,7 @@ bool flatten(const Loops& loops, std::vector<Vec3>& points) {
       Mat3 scatter = Mat3::Zero();
       for (const int v : loop)
         scatter += (points[v] - centre[k]) * (points[v] - centre[k]).transpose();
-      // Across the direction in which the corners scatter least.
+      // The plane lies across the direction in which the corners scatter least.
       normal[k] = Eigen::SelfAdjointEigenSolver<Mat3>(scatter).eigenvectors().col(0);
     }
     off = 0.0;
@@ -318,7 +318,7 @@ bool flatten(const Loops& loops, std::vector<Vec3>& points) {
   return off < most_off;
 }
 
-/// How far a point lies outside at most [m].
+/// The largest distance of a point outside a face's plane [m], or 0.
 double farthest_outside(const Polyhedron& solid, std::span<const Vec3> points) {
   double farthest = 0.0;
   for (int f = 0; f < solid.face_count(); ++f)
@@ -331,7 +331,7 @@ double farthest_outside(const Polyhedron& solid, std::span<const Vec3> points) {
 
 Polyhedron convex_hull(std::span<const Vec3> points) {
   const std::vector<Vec3> scaled = normalised(points);
-  // From qhull only the faces are taken; the solid is built from the caller's own coordinates, and
+  // Only the faces are taken from qhull; the solid is built from the caller's own coordinates, and
   // its constructor checks everything once more.
   try {
     return solid_of(points, hull_loops(scaled, exact_tolerance));
@@ -360,7 +360,7 @@ Polyhedron rounded_hull(std::span<const Vec3> points, double rounding) {
       if (farthest_outside(solid, points) < 10.0 * rounding * half) return solid;
     }
   } catch (const InvalidPolyhedron&) {
-    // Faces were joined that are none.
+    // Facets were joined that are not one face.
   }
   return convex_hull(points);
 }

@@ -63,8 +63,8 @@ std::optional<Polyhedron> try_grain(const GrainShapeSettings& s, Random& random)
   Polyhedron hull = convex_hull(points);
   const int vertices = hull.vertex_count();
   if (vertices < s.min_vertices || vertices > s.max_vertices) return std::nullopt;
-  // With triangles alone 3 F = 2 E, and Euler's V - E + F = 2 says F = 2 V - 4. Fewer
-  // faces: some are larger polygons.
+  // With triangles alone 3 F = 2 E, and Euler's V - E + F = 2 gives F = 2 V - 4. With fewer faces
+  // some are larger polygons.
   if (hull.face_count() != 2 * vertices - 4) return std::nullopt;
   return hull;
 }
@@ -108,8 +108,8 @@ PrincipalShape make_grain(const GrainShapeSettings& settings, double radius, std
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const std::optional<Polyhedron> hull = try_grain(settings, random);
     if (!hull) continue;
-    // Only in the principal frame the centre of mass, from which the radius is measured, is at the
-    // origin. The scaled grain goes through it again for its own volume and moments.
+    // Only in the principal frame is the centre of mass, from which the radius is measured, at the
+    // origin. The scaled grain is transformed once more for its own volume and moments.
     const Polyhedron principal = to_principal_frame(*hull).shape;
     return to_principal_frame(scaled(principal, radius / principal.circumradius()));
   }
@@ -120,8 +120,8 @@ PrincipalShape make_grain(const GrainShapeSettings& settings, double radius, std
 Polyhedron make_sphere(double radius, int subdivisions) {
   if (!(radius > 0.0 && std::isfinite(radius)) || subdivisions < 0 || subdivisions > 5)
     throw std::invalid_argument("sphere: need radius > 0 and 0 to 5 subdivisions");
-  // The corners of an icosahedron are (0, +-1, +-g) and what cyclic exchange makes of them, g the
-  // golden ratio. All have the same distance from the origin.
+  // The corners of an icosahedron are (0, +-1, +-g) and their cyclic permutations, with the golden
+  // ratio g. All have the same distance from the origin.
   const double golden = 0.5 * (1.0 + std::sqrt(5.0));
   std::vector<Vec3> points;
   for (const double a : {-1.0, 1.0}) {
@@ -132,7 +132,7 @@ Polyhedron make_sphere(double radius, int subdivisions) {
   for (Vec3& p : points) p *= radius / p.norm();
   Polyhedron sphere = convex_hull(points);
   for (int level = 0; level < subdivisions; ++level) {
-    // The middle of every edge is pushed out to the sphere: four triangles take the place of each.
+    // The middle of every edge is pushed out to the sphere: four triangles replace each triangle.
     for (const Polyhedron::Edge& edge : sphere.edges()) {
       const Vec3 middle = sphere.vertex(edge.tail) + sphere.vertex(edge.head);
       points.push_back(middle * (radius / middle.norm()));
@@ -154,7 +154,7 @@ std::vector<PrincipalShape> make_grains(int count, const std::vector<SizeClass>&
   if (count < 0 || !(std::abs(sum - 1.0) < 1e-9))
     throw std::invalid_argument("size distribution: the fractions must sum to 1");
 
-  // How many of each class is fixed by the distribution; only their order and shapes are random.
+  // The distribution fixes how many of each class there are; only order and shapes are random.
   std::vector<double> radii;
   const std::vector<int> counts = class_counts(count, distribution);
   for (size_t c = 0; c < distribution.size(); ++c) {

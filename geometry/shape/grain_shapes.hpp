@@ -9,9 +9,9 @@
 
 namespace ballast {
 
-/// How the paper's "diameter" is read: its own sentence ("the largest distance between the
+/// How the paper's "diameter" is read. Its own sentence ("the largest distance between the
 /// barycenter and the vertices") makes it a radius; ballast practice (25-50 mm) makes it a
-/// diameter, half as large a grain.
+/// diameter, and the grain half as large.
 enum class SizeConvention { radius, diameter };
 
 /// Shape statistics in the range of digitised ballast. Axis ratios are those of the directions'
@@ -42,8 +42,8 @@ PrincipalShape make_grain(const GrainShapeSettings& settings, double radius, std
 /// `subdivisions` times.
 Polyhedron make_sphere(double radius, int subdivisions);
 
-/// `count` grains: classes filled by largest remainder, then shuffled by the seed, so that position
-/// in the list says nothing about the size.
+/// Makes `count` grains. Classes are filled by largest remainder and then shuffled by the seed, so
+/// that the position in the list says nothing about the size.
 std::vector<PrincipalShape> make_grains(int count, const std::vector<SizeClass>& distribution,
                                         SizeConvention convention,
                                         const GrainShapeSettings& settings, std::uint64_t seed);

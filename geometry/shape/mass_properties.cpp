@@ -30,12 +30,12 @@ Mat3 principal_axes(const Mat3& inertia) {
   return axes;
 }
 
-/// Tetrahedra from one inner point to a fan of each face; for a tetrahedron (0, a, b, c) with d =
-/// det(a, b, c): volume d/6, first moment d/24 (a+b+c), second moment d/120 (a a' + b b' + c c' +
-/// (a+b+c)(a+b+c)').
+/// Sums over tetrahedra from one inner point to a fan of each face. A tetrahedron (0, a, b, c) with
+/// d = det(a, b, c) has the volume d/6, the first moment d/24 (a+b+c) and the second moment
+/// d/120 (a a' + b b' + c c' + (a+b+c)(a+b+c)').
 MassProperties mass_properties(const Polyhedron& polyhedron) {
-  // About a point inside and not about the origin: for a mesh far from its origin the tetrahedra
-  // would be large, nearly cancel, and leave few digits.
+  // The sums are about a point inside, not the origin: for a mesh far from its origin the
+  // tetrahedra would be large, nearly cancel, and leave few digits.
   const Vec3 reference = mean(polyhedron.vertices());
 
   double volume = 0.0;
@@ -75,7 +75,7 @@ PrincipalShape to_principal_frame(const Polyhedron& polyhedron) {
   properties = mass_properties(shape);
 
   // The coordinates of a mesh far from its origin are rounded to that distance, and so are its
-  // centre and axes. The shape is near its origin now: one correction from here removes the error.
+  // centre and axes. The moved shape is near its origin: one correction here removes the error.
   if (properties.centre.norm() > 1e-15 * shape.circumradius() ||
       off_diagonal(properties.inertia) > 1e-12) {
     const Mat3 correction = principal_axes(properties.inertia);

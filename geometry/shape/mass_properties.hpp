@@ -27,9 +27,9 @@ struct PrincipalShape {
 /// box; otherwise the rotation is proper, with moments ascending.
 PrincipalShape to_principal_frame(const Polyhedron& polyhedron);
 
-/// Columns: the principal axes of an inertia in the frame that it is given in, right-handed; the
-/// unit matrix where its axes are principal already, else moments ascending. The choice does not
-/// depend on the eigensolver.
+/// Columns: the right-handed principal axes of an inertia, in the frame that it is given in. They
+/// are the unit matrix if its axes are principal already; otherwise moments ascend. The choice does
+/// not depend on the eigensolver.
 Mat3 principal_axes(const Mat3& inertia);
 
 }  // namespace ballast

@@ -55,7 +55,7 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// In either case; `keyword`: in small letters.
+/// Compares capital and small letters as equal; `keyword` is in small letters.
 bool is_same_word(std::string_view word, std::string_view keyword) {
   return std::ranges::equal(word, keyword, [](char a, char b) {
     return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
@@ -198,8 +198,8 @@ Soup read_binary(const std::filesystem::path& file, std::string_view content) {
   return soup;
 }
 
-/// Word after word of a text STL, with the line they stand on; keywords in either case, as found in
-/// the wild.
+/// Reads a text STL word by word, with the line that each word stands on. Keywords may be in
+/// capital or small letters, as files have both.
 class TextReader {
  public:
   TextReader(const std::filesystem::path& file, std::string_view text)
@@ -229,8 +229,8 @@ class TextReader {
   std::string_view text_, line_;
 };
 
-/// After the word "facet". Normals may be anything, even NaN, as some writers have it for thin
-/// triangles.
+/// Reads a facet after the word "facet". Its normal may be anything, even NaN, as some programs
+/// write it for thin triangles.
 void read_facet(TextReader& reader, Soup& soup) {
   soup.lines.push_back(reader.place().line);
   reader.expect("normal");
@@ -247,7 +247,7 @@ void read_facet(TextReader& reader, Soup& soup) {
   reader.expect("endfacet");
 }
 
-/// Solids, one after the other; line breaks mean nothing but for the names:
+/// Reads solids, one after the other; line breaks matter only for the names:
 ///
 ///     solid NAME
 ///       facet normal x y z   outer loop   (vertex x y z) three times   endloop   endfacet
@@ -313,11 +313,11 @@ RawMesh read_stl(const std::filesystem::path& file, std::string_view content) {
   return mesh;
 }
 
-// ---- what is made of either
+// ---- from a raw mesh to a solid
 
-/// Dents and steps up to this part of the size are rounding of the file's numbers (single
-/// precision, six digits): 16 roundings of single precision, more where the solid lies far from the
-/// origin. Where it lies so far that less than four digits are left, the mesh is broken.
+/// Dents and steps up to this part of the size count as rounding of the file's numbers: six digits
+/// or, in single precision, 16 roundings if they are more, as for a solid far from the origin. If
+/// it is so far that less than four digits are left, the mesh is broken.
 double file_tolerance(const RawMesh& mesh) {
   constexpr double six_digits = 1e-6, single = 6e-8, most = 1e-4;
   if (!mesh.is_single) return six_digits;
@@ -350,7 +350,7 @@ RawMesh read_raw(const std::filesystem::path& file, double scale) {
   return mesh;
 }
 
-/// The message of `error` with the line of the face or vertex that it is about.
+/// Throws MeshFileError: the message of `error` with the line of the face or vertex it is about.
 [[noreturn]] void fail_at(const std::filesystem::path& file, const RawMesh& mesh,
                           const InvalidPolyhedron& error) {
   int line = 0;
@@ -365,7 +365,7 @@ RawMesh read_raw(const std::filesystem::path& file, double scale) {
   Place{file, line}.fail(error.what() + counting);
 }
 
-/// Throws for what would be compared with itself for minutes.
+/// Throws for meshes so large that comparing them with themselves would take minutes.
 void require_few(const std::filesystem::path& file, size_t vertices) {
   if (vertices > most_mesh_vertices)
     Place{file}.fail("has " + std::to_string(vertices) + " vertices, at most " +
@@ -373,8 +373,8 @@ void require_few(const std::filesystem::path& file, size_t vertices) {
                      " are taken: thin it first (MeshLab: Quadric Edge Collapse Decimation)");
 }
 
-/// Whether two neighbouring faces lie in one plane to `reach` [m]: contact patches want them as one
-/// polygon.
+/// Whether two neighbouring faces lie in one plane to `reach` [m]: for contact patches they should
+/// be one polygon.
 bool has_coplanar_neighbours(const Polyhedron& polyhedron, double reach) {
   return std::ranges::any_of(polyhedron.edges(), [&](const Polyhedron::Edge& edge) {
     return std::ranges::all_of(polyhedron.face(edge.right), [&](int v) {
@@ -399,8 +399,8 @@ void require_near(const std::vector<Vec3>& vertices, const Polyhedron& hull, dou
   }
 }
 
-/// A mesh that is convex as it stands is taken, but for two kinds: single precision, whose faces
-/// are fitted anew, and polygons cut into pieces, which are joined.
+/// Takes a convex mesh as it stands. If it has coplanar neighbouring faces or is convex only up to
+/// rounding, polygons cut into pieces are joined, and faces in single precision are fitted anew.
 Polyhedron solid_of_mesh(const RawMesh& mesh) {
   const double tolerance = file_tolerance(mesh);
   const double extent = bounds_of(mesh.vertices).largest_extent();
@@ -410,7 +410,7 @@ Polyhedron solid_of_mesh(const RawMesh& mesh) {
     if (!has_coplanar_neighbours(solid, flat)) return solid;
     if (!mesh.is_single) return convex_hull(mesh.vertices);
   } catch (const InvalidPolyhedron&) {
-    // Really broken where it is not convex to the tolerance either.
+    // The mesh is really broken if it is not convex to the tolerance either.
     const Polyhedron nearly(mesh.vertices, mesh.faces, tolerance, 0.5 * tolerance);
     require_near(mesh.vertices, convex_hull(mesh.vertices), tolerance * extent);
   }

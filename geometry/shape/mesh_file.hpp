@@ -1,5 +1,5 @@
 #pragma once
-// OBJ and STL (text and binary), so that a user's own digitised grains run.
+// Reads OBJ and STL files (text and binary), so that users can run their own digitised grains.
 
 #include <cstddef>
 #include <filesystem>
@@ -21,7 +21,7 @@ class MeshFileError : public Error {
 /// Solids with more vertices are refused: detection compares all faces with all vertices once.
 inline constexpr size_t most_mesh_vertices = 10000;
 
-/// By its suffix, in any case: .obj, .stl.
+/// Decides by the suffix, .obj or .stl, in capital or small letters.
 bool is_mesh_file(const std::filesystem::path& file);
 
 /// Reads a closed convex polyhedron; the format follows the suffix (.obj, .stl). `scale` multiplies
@@ -35,11 +35,11 @@ Polyhedron read_mesh(const std::filesystem::path& file, double scale = 1.0);
 /// scanned grains.
 Polyhedron read_mesh_hull(const std::filesystem::path& file, double scale = 1.0);
 
-/// The faces of a mesh as they stand, which need not be closed or convex: corner by corner [m].
-/// Throws MeshFileError.
+/// Reads the faces of a mesh as they stand, corner by corner [m]; they need not be closed or
+/// convex. Throws MeshFileError.
 std::vector<std::vector<Vec3>> read_faces(const std::filesystem::path& file, double scale = 1.0);
 
-/// A text that names a mesh by its vertices and faces, to the last bit.
+/// A text key of a mesh's vertices and faces, exact to the last bit.
 std::string mesh_key(const Polyhedron& mesh);
 
 }  // namespace ballast

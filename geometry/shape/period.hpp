@@ -7,8 +7,8 @@
 
 namespace ballast {
 
-/// After this vector [m] the world repeats itself; zero: it does not. Where something is counts
-/// only up to whole periods.
+/// The world repeats itself after this vector [m]; zero: it does not. Positions count only up to
+/// whole periods.
 struct Period {
   Vec3 vector = Vec3::Zero();
 
@@ -22,9 +22,9 @@ struct Period {
   bool has_room_for(double circumradius) const {
     return !repeats() || 4.0 * circumradius < vector.norm();
   }
-  /// The image of a place that lies in the first period, 0 <= x.P / P.P < 1.
+  /// The image of x that lies in the first period, 0 <= x.P / P.P < 1.
   Vec3 wrapped(const Vec3& x) const { return repeats() ? Vec3(x - periods(x, 0.0)) : x; }
-  /// Of the vectors that differ from x by whole periods the one least along the period.
+  /// The vector that differs from x by whole periods and is shortest along the period.
   Vec3 nearest(const Vec3& x) const { return repeats() ? Vec3(x - periods(x, 0.5)) : x; }
 
  private:

@@ -9,20 +9,20 @@
 
 namespace ballast {
 
-/// Of at least one point.
+/// The mean of at least one point.
 inline Vec3 mean(std::span<const Vec3> points) {
   Vec3 sum = Vec3::Zero();
   for (const Vec3& p : points) sum += p;
   return sum / static_cast<double>(points.size());
 }
 
-/// Corners of the smallest box along the axes that holds a set.
+/// Corners of the smallest axis-aligned box that holds a set.
 struct Bounds {
   Vec3 low, high;
   double largest_extent() const { return (high - low).maxCoeff(); }
 };
 
-/// Of at least one point.
+/// The bounds of at least one point.
 Bounds bounds_of(std::span<const Vec3> points);
 
 /// Twice the area of a vertex loop times its unit normal [m^2], right-handed about the loop: a fan

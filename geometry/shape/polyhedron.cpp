@@ -25,7 +25,7 @@ template <class... Parts>
   throw InvalidPolyhedron(message.str(), at.face, at.vertex);
 }
 
-/// At least four vertices, with finite coordinates.
+/// Throws unless there are at least four vertices, with finite coordinates.
 void check_coordinates(std::span<const Vec3> vertices) {
   for (size_t v = 0; v < vertices.size(); ++v) {
     if (!vertices[v].allFinite())
@@ -36,10 +36,10 @@ void check_coordinates(std::span<const Vec3> vertices) {
     invalid(At{}, "a polyhedron needs at least 4 vertices, got ", vertices.size());
 }
 
-/// Faces of at least three vertices, indices in range, no vertex twice in a face, none unused.
+/// Throws unless faces have at least 3 vertices, all in range and different, and none is unused.
 void check_indices(int vertex_count, const std::vector<std::vector<int>>& faces) {
   std::vector<bool> used(vertex_count, false);
-  std::vector<int> last_face(vertex_count, -1);  // that a vertex was found in
+  std::vector<int> last_face(vertex_count, -1);  // in which a vertex was found
   for (size_t f = 0; f < faces.size(); ++f) {
     const At here{.face = static_cast<int>(f)};
     if (faces[f].size() < 3)
@@ -134,7 +134,7 @@ void Polyhedron::measure_size() {
   }
 }
 
-/// All loops in one array: face f has those from face_begin_[f] to before face_begin_[f + 1].
+/// Puts all loops in one array: face f has face_begin_[f] to before face_begin_[f + 1].
 void Polyhedron::build_faces(const std::vector<std::vector<int>>& faces) {
   face_begin_.assign(1, 0);
   for (const std::vector<int>& face : faces) {
@@ -146,7 +146,7 @@ void Polyhedron::build_faces(const std::vector<std::vector<int>>& faces) {
 }
 
 /// Each face runs along its edges once: a half-edge. The two half-edges between the same vertices
-/// make an edge, and neighbours of their faces.
+/// make an edge, and make their faces neighbours.
 void Polyhedron::join_faces() {
   struct HalfEdge {
     int low, high;  // its ends
@@ -215,8 +215,8 @@ std::vector<std::vector<int>> Polyhedron::faces_by_vertex() const {
   return faces;
 }
 
-/// Faces connected across edges and Euler's V - E + F = 2: together they leave only the sphere, as
-/// handles and vertices where the surface touches itself both lower the sum.
+/// Requires faces connected across edges and Euler's V - E + F = 2: together they leave only the
+/// sphere, as handles and vertices where the surface touches itself both lower the sum.
 void Polyhedron::check_one_piece() const {
   std::vector<int> reached{0};
   std::vector<bool> seen(normals_.size(), false);
@@ -239,7 +239,7 @@ void Polyhedron::check_one_piece() const {
   }
 }
 
-/// Returns for each face its extent over its double area: one over a height, large for thin faces.
+/// Returns each face's extent over twice its area: one over a height, large for thin faces.
 std::vector<double> Polyhedron::build_planes(double tolerance) {
   std::vector<double> thinness;
   inradius_ = std::numeric_limits<double>::infinity();
@@ -259,7 +259,7 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
     for (const int v : loop) extent = std::max(extent, (vertices_[v] - first).norm());
     if (!(length > tolerance * size_ * extent))
       invalid(At{.face = f}, "face ", f, " has no area (a needle or folded face)");
-    // Through the mean of the corners; the offset is the plane's signed distance from the origin.
+    // The plane goes through the corners' mean; its offset is its signed distance from the origin.
     normals_[f] = area2 / length;
     offsets_[f] = normals_[f].dot(centre);
     inradius_ = std::min(inradius_, offsets_[f]);
@@ -278,8 +278,8 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
   return thinness;
 }
 
-/// Thin faces know their plane badly: an error of one rounding over the height of the face tilts it
-/// by that angle.
+/// The plane of a thin face is known badly: an error of one rounding over the height of the face
+/// tilts it by that angle.
 void Polyhedron::check_convex(double tolerance, double rounding,
                               const std::vector<double>& thinness) const {
   const double computed = 4.0 * std::numeric_limits<double>::epsilon() * (circumradius_ + size_);
@@ -287,7 +287,7 @@ void Polyhedron::check_convex(double tolerance, double rounding,
   // With distinct vertices, convex faces and one sphere this is enough: a surface that covered the
   // hull more than once would need each corner of the hull twice.
   for (int f = 0; f < face_count(); ++f) {
-    // The second: how well the face's plane is known within the solid.
+    // The second term says how well the face's plane is known within the solid.
     const double allowed = tolerance * size_ + known * (1.0 + 2.0 * size_ * thinness[f]);
     const Vec3& origin = vertices_[face(f)[0]];
     for (int v = 0; v < vertex_count(); ++v) {

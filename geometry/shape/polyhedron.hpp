@@ -17,12 +17,12 @@ class InvalidPolyhedron : public std::runtime_error {
   explicit InvalidPolyhedron(const std::string& what, int at_face = -1, int at_vertex = -1)
       : std::runtime_error(what), face(at_face), vertex(at_vertex) {}
 
-  /// Where, for readers that know the line; -1 when the defect is no single face or vertex.
+  /// Where the defect is, for readers that know the line; -1 if it is no single face or vertex.
   int face, vertex;
 };
 
 /// Convex polyhedron, immutable, in its own frame [m]. Built once, shared by all bodies of its
-/// shape. Thousands are kept: what follows from the faces is made when it is asked for.
+/// shape. Thousands are kept, so all that follows from the faces is computed when asked for.
 class Polyhedron {
  public:
   /// One undirected edge: its ends and the two faces that meet there. Seen from outside, face
@@ -40,21 +40,21 @@ class Polyhedron {
   /// repeated vertices, NaN or infinity. Neighbouring faces may be coplanar, but a face's corners
   /// must be strictly convex.
   ///
-  /// `tolerance` is relative to the size (largest distance of a vertex from the vertices' mean): so
-  /// far may a vertex lie off its face's plane or in front of another's, and shorter edges and
+  /// `tolerance` is relative to the size (largest distance of a vertex from the vertices' mean): a
+  /// vertex may lie so far off its face's plane or in front of another face; shorter edges and
   /// lower faces count as zero. `rounding`, also relative to the size, is how well the vertices are
-  /// known, if not to double precision. Small and thin faces know their planes badly, and vertices
-  /// may lie in front of one by what a rounding tilts it in addition.
+  /// known, if not to double precision. The planes of small and thin faces are known badly, and
+  /// vertices may in addition lie in front of one by as much as a rounding tilts it.
   Polyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces,
              double tolerance = 1e-9, double rounding = 0.0);
 
-  /// The same faces about other vertices, one for each of this one's, in its order [m]. Throws as
+  /// The same faces with other vertices, one for each of this one's, in its order [m]. Throws as
   /// the constructor.
   Polyhedron with_vertices(std::vector<Vec3> vertices) const;
 
   /// The same solid seen from a frame at `origin` whose axes are the columns of `axes`, a rotation:
-  /// each vertex p at axes^T (p - origin). It stays convex, which is not checked anew. Throws
-  /// InvalidPolyhedron where rounding, far from `origin`, leaves a face that is no plane any more.
+  /// each vertex p becomes axes^T (p - origin). It stays convex, which is not checked anew. Throws
+  /// InvalidPolyhedron where rounding, far from `origin`, leaves a face that is no longer flat.
   Polyhedron in_frame(const Mat3& axes, const Vec3& origin) const;
 
   int vertex_count() const { return static_cast<int>(vertices_.size()); }
@@ -74,13 +74,13 @@ class Polyhedron {
   double offset(int f) const { return offsets_[f]; }
   std::span<const Vec3> normals() const { return normals_; }
 
-  /// Ordered by (tail, head), tail < head; made anew at every call.
+  /// All edges, ordered by (tail, head), tail < head; made anew at every call.
   std::vector<Edge> edges() const;
-  /// Of each vertex the faces that meet there, ascending; made anew at every call.
+  /// The faces that meet at each vertex, ascending; made anew at every call.
   std::vector<std::vector<int>> faces_by_vertex() const;
 
-  /// Largest distance origin-vertex, and the radius of the largest ball around the origin inside
-  /// the solid (negative when the origin lies outside) [m].
+  /// Largest distance of a vertex from the origin, and the radius of the largest ball around the
+  /// origin inside the solid (negative when the origin lies outside) [m].
   double circumradius() const { return circumradius_; }
   double inradius() const { return inradius_; }
 

@@ -55,7 +55,7 @@ inline Vec3 random_direction(Random& random) {
   }
 }
 
-/// Uniform over rotations (rejection in four dimensions).
+/// A rotation, uniform over all of them (rejection in four dimensions).
 inline Quat random_rotation(Random& random) {
   while (true) {
     const double w = random.uniform(-1.0, 1.0), x = random.uniform(-1.0, 1.0),

@@ -13,7 +13,7 @@ double part_of(double difference, double whole) {
   return difference == 0.0 ? 0.0 : std::abs(difference / whole);
 }
 
-/// What bodies and the wall say: dynamics form only.
+/// Sets the differences of body velocities and of the wall force (dynamics form only).
 void compare_bodies(const FrictionProblem& problem, const Impulses& answer,
                     const Impulses& solution, AnswerDistance& distance) {
   const DynamicsForm& dynamics = problem.dynamics;
@@ -33,8 +33,8 @@ void compare_bodies(const FrictionProblem& problem, const Impulses& answer,
   distance.wall_force = part_of(impulse[unknown] - exact_impulse[unknown], exact_impulse[unknown]);
 }
 
-/// What r - rho u says, rho = 1 / `lambda_max` of W_cc: open where its normal part is not positive,
-/// stick inside Coulomb's cone. The two do not meet where one of r and u is zero to rounding.
+/// The status by r - rho u, rho = 1 / `lambda_max` of W_cc: open where its normal part is not
+/// positive, stick inside Coulomb's cone. Where r or u is zero to rounding, the other decides.
 ContactStatus contact_status(const Eigen::Vector3d& r, const Eigen::Vector3d& u, double mu,
                              double lambda_max) {
   const Eigen::Vector3d z = lambda_max * r - u;

@@ -1,5 +1,5 @@
 #pragma once
-// The Delassus operator W = H M^-1 H^T: built only when someone asks for it.
+// The Delassus operator W = H M^-1 H^T: built only on request.
 
 #include <vector>
 
@@ -8,22 +8,21 @@
 
 namespace ballast {
 
-/// Diagonal blocks W_cc of every contact, as 3 x 3 (a one-row contact uses only entry 0,0; the rest
-/// is zero). Of a stored W the symmetric part: rho and local solves need no more, and a solution
-/// does not depend on either.
+/// Computes the diagonal block W_cc of every contact as 3 x 3 (a one-row contact uses only entry
+/// 0,0; the rest is zero). A stored W gives the symmetric part: rho and local solves need no more,
+/// and a solution depends on neither.
 void delassus_diagonal(const FrictionProblem& problem, std::vector<Eigen::Matrix3d>& blocks);
 
-/// The same with the workspace of a caller that comes every step; `roots` holds the factored masses
-/// afterwards.
+/// The same with the workspace of a caller that returns every step; afterwards `roots` holds the
+/// factored masses.
 void delassus_diagonal(const FrictionProblem& problem, std::vector<MassRoot>& roots,
                        std::vector<Eigen::Matrix3d>& blocks);
 
-/// The same of one contact, the masses being factored (dynamics form only).
+/// The block of one contact, from factored masses (dynamics form only).
 Eigen::Matrix3d delassus_block(const FrictionProblem& problem, const std::vector<MassRoot>& roots,
                                int c);
 
-/// The whole operator, assembled block by block from contacts that share a body (or the stored
-/// one).
+/// The whole operator: the stored one, or assembled block by block from contacts that share a body.
 SparseRows delassus_matrix(const FrictionProblem& problem);
 
 }  // namespace ballast

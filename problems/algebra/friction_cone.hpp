@@ -1,6 +1,6 @@
 #pragma once
 // Coulomb's cone K_mu = {r : |r_T| <= mu r_N} and its dual K_mu* = {u : u_N >= mu |u_T|}, normal
-// first; and the mean over contacts in which the judge and the solvers' own errors are stated.
+// first; and the root mean square over contacts in which the judge and the solvers give errors.
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 namespace ballast {
 
-/// What a contact does, by Coulomb's law.
+/// The status of a contact under Coulomb's law.
 enum class ContactStatus { open, stick, slip };
 
 /// |x_T|
@@ -41,7 +41,7 @@ inline Eigen::Vector3d project_dual_cone(const Eigen::Vector3d& x, double mu) {
 /// An element of the generalised Jacobian of project_cone at x (exact wherever it is
 /// differentiable).
 inline Eigen::Matrix3d project_cone_jacobian(const Eigen::Vector3d& x, double mu) {
-  // Of x = (x_N, x_T), by its normal part and the length of its tangential one:
+  // Regions of x = (x_N, x_T), by its normal part and the length of its tangential one:
   //
   //     x_N
   //      | K  /        in K_mu, |x_T| <= mu x_N:              P(x) = x
@@ -80,12 +80,12 @@ inline Eigen::Vector3d natural_map(const Eigen::Vector3d& r, const Eigen::Vector
 class RootMeanSquare {
  public:
   void add(double value) { add_square(value * value); }
-  /// A value whose square is at hand [its unit squared].
+  /// Adds a value by its square [its unit squared].
   void add_square(double square) {
     sum_ += square;
     ++count_;
   }
-  /// All values of a part that was summed on its own.
+  /// Adds all values of a part that was summed separately.
   void add(const RootMeanSquare& part) {
     sum_ += part.sum_;
     count_ += part.count_;

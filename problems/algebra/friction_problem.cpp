@@ -14,8 +14,8 @@
 namespace ballast {
 namespace {
 
-/// u += B v for a column-major block of Rows x dofs. The sums are local: the compiler cannot know
-/// that u is not part of B.
+/// u += B v for a column-major block of Rows x dofs. The sums are local variables: for the compiler
+/// u might be part of B.
 template <int Rows>
 [[gnu::always_inline]] inline void multiply_add(const double* block, int dofs, const double* v,
                                                 double* u) {
@@ -39,8 +39,8 @@ template <int Rows>
   }
 }
 
-/// One contact's rows of H v; the six unknowns of a rigid body are known to the compiler, which
-/// unrolls.
+/// Adds one contact's rows of H v to u. The six unknowns of a rigid body are a constant, so that
+/// the compiler unrolls.
 template <int Rows>
 inline void contact_row_velocity(const DynamicsForm& dynamics, int c, const double* v, double* u) {
   const double* block = dynamics.h.data() + dynamics.h_begin[c];
@@ -57,7 +57,7 @@ inline void contact_row_velocity(const DynamicsForm& dynamics, int c, const doub
   }
 }
 
-/// One contact's part of H^T r for those of its bodies that lie in [begin, end).
+/// Adds one contact's part of H^T r for those of its bodies that lie in [begin, end).
 template <int Rows>
 inline void add_contact_impulse(const DynamicsForm& dynamics, int c, const double* r, int begin,
                                 int end, double* v) {
@@ -238,18 +238,17 @@ Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c) {
   return block;
 }
 
-// validate(): fast loops look for any bad entry; only when there is one is it looked for again, to
-// name it.
+// validate(): fast loops tell whether any entry is bad; only then a slow loop finds and names it.
 namespace {
 
-/// Asymmetry |x_ij - x_ji| of a block, relative to its diagonal. Masses: rounding of rotated
-/// inertias. Stored Delassus operators: implicit gyroscopic terms make some of them truly
-/// unsymmetric (FCLIB's RockPile by 2 %, others by 16 %), and the law is asked of W as it is; only
-/// a block whose antisymmetric part outweighs its diagonal is taken for something else.
+/// Largest asymmetry |x_ij - x_ji| of a block, relative to its diagonal. Masses have the rounding
+/// of rotated inertias. Implicit gyroscopic terms make some stored Delassus operators truly
+/// unsymmetric (FCLIB's RockPile by 2 %, others by 16 %), and the law must hold for W as it is:
+/// only a block whose antisymmetric part outweighs its diagonal is refused.
 constexpr double mass_asymmetry = 1e-10;
 constexpr double delassus_asymmetry = 2.0;
-/// Below zero by this much, relative, a minor of a stored block is taken for rounding: some files
-/// hold six digits.
+/// A minor of a stored block may be below zero by this much, relative, as rounding: some files hold
+/// six digits.
 constexpr double semidefinite_rounding = 1e-5;
 
 template <typename... Parts>
@@ -265,7 +264,7 @@ void require_size(const char* array, std::size_t size, int expected, const char*
     fail(array, " has ", size, " entries; ", because, " needs ", expected);
 }
 
-/// `place...`: the array and where in it.
+/// `place...` names the array and the place in it.
 template <typename... Place>
 void require_number(double x, const Place&... place) {
   if (!std::isfinite(x)) fail(place..., " = ", x, " is not finite");
@@ -273,8 +272,8 @@ void require_number(double x, const Place&... place) {
     fail(place..., " = ", x, " is beyond ", largest_entry, ", where squares and products overflow");
 }
 
-/// Numbers >= 0 are ordered as their bits are, infinity and NaN after all others. Integer work, so
-/// that the compiler vectorises the reduction.
+/// Numbers >= 0 are ordered like their bits, infinity and NaN after all others. The comparison is
+/// of integers, so that the compiler vectorises the reduction.
 BALLAST_FOR_EACH_CPU bool is_any_too_large(const double* x, long size) {
   constexpr std::uint64_t magnitude = 0x7fffffffffffffffull;
   constexpr std::uint64_t largest = std::bit_cast<std::uint64_t>(largest_entry);
@@ -297,7 +296,7 @@ void require_begin(const char* array, const std::vector<int>& begin, int count, 
   if (begin[0] != 0) fail(array, "[0] = ", begin[0], ", must be 0");
 }
 
-// Sizes first: what follows may then index freely.
+// Checks sizes first, so that all later checks may index freely.
 void validate_contacts(const FrictionProblem& problem) {
   const int contacts = problem.contact_count();
   require_begin("row_begin", problem.row_begin, contacts, "one friction coefficient per contact");
@@ -316,7 +315,7 @@ void validate_contacts(const FrictionProblem& problem) {
   }
 }
 
-// Positive definite and, up to rounding, symmetric.
+// Requires a block that is positive definite and, up to rounding, symmetric.
 void validate_mass_block(const DynamicsForm& dynamics, int b) {
   const int dofs = dynamics.body_dofs(b), first = dynamics.mass_begin[b];
   const double* block = dynamics.mass.data() + first;
@@ -357,7 +356,7 @@ void validate_masses(const DynamicsForm& dynamics) {
   for (int b = 0; b < bodies; ++b) validate_mass_block(dynamics, b);
 }
 
-/// `is_h_bad`: some entry of H is no number.
+/// `is_h_bad`: some entry of H is not finite or too large.
 void validate_dynamics(const FrictionProblem& problem, bool is_h_bad) {
   const DynamicsForm& dynamics = problem.dynamics;
   const int contacts = problem.contact_count(), bodies = dynamics.body_count();
@@ -384,7 +383,7 @@ void validate_dynamics(const FrictionProblem& problem, bool is_h_bad) {
   require_numbers("dynamics.bias", dynamics.bias, problem.row_count(), "one entry per contact row");
 }
 
-// Positive semidefinite up to rounding: all minors of the symmetric part.
+// Requires that the symmetric part is positive semidefinite up to rounding, by all its minors.
 void validate_diagonal_block(const FrictionProblem& problem, int c) {
   const Eigen::Matrix3d d = stored_diagonal_block(problem, c), even = 0.5 * (d + d.transpose());
   const int first = problem.row_begin[c];
@@ -420,7 +419,7 @@ void validate_delassus(const FrictionProblem& problem) {
   require_size("delassus.w rows", static_cast<std::size_t>(w.rows()), rows, "the contacts");
   require_size("delassus.w columns", static_cast<std::size_t>(w.cols()), rows, "the contacts");
   for (int row = 0; row < rows; ++row) {
-    // Columns ascend, without which products and look-ups would go wrong silently.
+    // Columns must ascend: otherwise products and look-ups would go wrong silently.
     int previous = -1;
     for (SparseRows::InnerIterator entry(w, row); entry; ++entry) {
       const int column = static_cast<int>(entry.col());
@@ -439,7 +438,7 @@ void validate_delassus(const FrictionProblem& problem) {
 void FrictionProblem::validate(KnownMasses* valid, WorkerTeam* team) const {
   validate_contacts(*this);
   if (has_dynamics) {
-    std::atomic<bool> are_valid = false, is_h_bad = false;  // the masses; of H some entry
+    std::atomic<bool> are_valid = false, is_h_bad = false;  // the masses; some entry of H
     const auto look = [&](int begin, int end) {
       if (is_any_too_large(dynamics.h.data() + begin, end - begin)) is_h_bad = true;
     };

@@ -1,5 +1,5 @@
 #pragma once
-// The friction problem: what every solver is handed, whether it comes from a time step or from a
+// The friction problem that every solver receives, whether it comes from a time step or from a
 // file.
 //
 //   M (v - v_free) = H^T r,    u = H v + bias,    W = H M^-1 H^T,    q = H v_free + bias
@@ -22,15 +22,15 @@ namespace ballast {
 using Impulses = Eigen::VectorXd;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// The greatest friction coefficient: an angle of friction of 89.994 degrees, which holds what is
-/// closed as a bond would. With more, u_N is lost in mu |u_T|, of which double precision keeps 16
-/// digits, before a solver's tolerance is reached. "Infinite" friction is this number, said so.
+/// The greatest friction coefficient: an angle of friction of 89.994 degrees, which holds a closed
+/// contact as a bond would. With more, u_N is lost in mu |u_T|, of which double precision keeps 16
+/// digits, before a solver's tolerance is reached. "Infinite" friction is given as this number.
 inline constexpr double largest_friction = 1e4;
-/// Greatest size of any entry, and least of a mass and of W_cc where it is not zero. In between no
-/// square, product or determinant that a solver makes overflows.
+/// Greatest magnitude of any entry, and least magnitude of a mass and of a W_cc that is not zero.
+/// In between, no square, product or determinant that a solver computes overflows.
 inline constexpr double largest_entry = 1e30, smallest_scale = 1e-30;
 
-/// A problem that no solver may see; what() names the array, the index and the value.
+/// Thrown for a problem that no solver may see; what() names the array, the index and the value.
 class InvalidProblem : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -55,23 +55,23 @@ struct DynamicsForm {
   std::vector<int> h_begin{0};
   std::vector<double> h;
 
-  Eigen::VectorXd v_free;  ///< without contact impulses, one entry per unknown [m/s, rad/s]
+  Eigen::VectorXd v_free;  ///< velocity without contact impulses, per unknown [m/s, rad/s]
   Eigen::VectorXd bias;    ///< per contact row [m/s]: walls that move, open gaps, restitution
 
   int body_count() const { return static_cast<int>(dof_begin.size()) - 1; }
   int dof_count() const { return dof_begin.back(); }
   int body_dofs(int body) const { return body < 0 ? 0 : dof_begin[body + 1] - dof_begin[body]; }
 
-  /// Appends a body with this mass block, 1 x 1 to 6 x 6; returns its number. Whoever builds a
-  /// problem sizes v_free himself.
+  /// Appends a body with this mass block, 1 x 1 to 6 x 6, and returns its number. The caller sizes
+  /// v_free.
   int add_body(const Eigen::MatrixXd& block);
 };
 
 /// The problem as files often give it: W (rows x rows) and q.
 struct DelassusForm {
   /// Positive semidefinite [1/kg]. Symmetric when it comes from a DynamicsForm; stored problems
-  /// with implicit gyroscopic terms are unsymmetric by some per cent, some by more, and the law is
-  /// asked of u = W r + q with W as it is.
+  /// with implicit gyroscopic terms are unsymmetric by some per cent, some by more, and the law
+  /// must hold for u = W r + q with W as it is.
   SparseRows w;
   Eigen::VectorXd q;  ///< [m/s]
 };
@@ -92,24 +92,24 @@ struct FrictionProblem {
   int row_count() const { return row_begin.back(); }
   int contact_rows(int c) const { return row_begin[c + 1] - row_begin[c]; }
 
-  /// No contacts; bodies stay. v_free, bias and h keep their sizes: whoever refills the problem
-  /// resizes them, and nothing is allocated while the sizes stay.
+  /// Removes all contacts and keeps the bodies. v_free, bias and h keep their sizes: the caller
+  /// that refills the problem resizes them, and nothing is allocated while the sizes stay.
   void clear_contacts();
 
-  /// Appends a contact of b against a to the dynamics form: rows x unknowns of each body, `h_a`
-  /// empty where a is -1. The rows are those of h_b. Whoever builds a problem sizes bias himself.
+  /// Appends a contact of b against a to the dynamics form. `h_a` and `h_b` are rows x unknowns of
+  /// their body, `h_a` empty where a is -1; h_b sets the rows. The caller sizes bias.
   void add_contact(int a, int b, double mu, const Eigen::MatrixXd& h_a, const Eigen::MatrixXd& h_b);
 
   /// Throws InvalidProblem naming the first bad entry: sizes that disagree, an index out of range,
   /// an entry that is not finite or beyond largest_entry, mu < 0 or beyond largest_friction, a mass
   /// block that is not symmetric positive definite, a Delassus diagonal block whose symmetric part
-  /// is not positive semidefinite or smaller than the rest. O(entries), which `team` shares. Masses
-  /// are looked at only if they are not `valid` already, and are kept there.
+  /// is not positive semidefinite or is outweighed by the rest. O(entries), which `team` shares.
+  /// Masses that equal the `valid` ones are not checked again; others are kept there.
   void validate(class KnownMasses* valid = nullptr, class WorkerTeam* team = nullptr) const;
 };
 
-/// The roots of the bodies' masses, and of the masses what tells whether they are the same, bit by
-/// bit: in a run every step brings the same.
+/// The roots of the bodies' masses, and a copy of the masses that tells whether others are the same
+/// bit by bit: in a run every step has the same masses.
 class KnownMasses {
  public:
   bool are_of(const DynamicsForm& dynamics) const;
@@ -119,14 +119,14 @@ class KnownMasses {
 
  private:
   std::vector<int> dof_begin_, mass_begin_;
-  std::vector<double> mass_;  // of a diagonal block its diagonal alone
+  std::vector<double> mass_;  // only the diagonal of a diagonal block
   std::vector<MassRoot> roots_;
 };
 
-/// u = W r + q with three rows per contact, and nothing known of bodies.
+/// A problem u = W r + q with three rows per contact and without bodies.
 FrictionProblem local_problem(SparseRows&& w, Eigen::VectorXd q, std::vector<double> mu);
 
-/// The rows of contact c of a vector over all rows, as three: those that it has not are zero.
+/// The rows of contact c in a vector over all rows, as three; rows that it lacks are zero.
 inline Eigen::Vector3d rows_of_contact(const FrictionProblem& problem, const Eigen::VectorXd& all,
                                        int c) {
   const double* rows = all.data() + problem.row_begin[c];
@@ -169,7 +169,7 @@ void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<in
 void body_to_contact_velocity(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                               const Eigen::VectorXd& v, int begin, int end, Eigen::VectorXd& u);
 
-/// p = H^T r: what the contacts give to each unknown [N s, N m s] (dynamics form only).
+/// p = H^T r: the impulse of the contacts on each unknown [N s, N m s] (dynamics form only).
 void contact_to_body_impulse(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
                              const Impulses& r, Eigen::VectorXd& p);
 /// The same for bodies begin <= b < end alone; `p` has its size already.

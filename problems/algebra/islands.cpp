@@ -12,7 +12,7 @@ std::vector<std::vector<int>> contact_islands(const FrictionProblem& problem) {
   std::vector<int> parent(dynamics.body_count());
   std::iota(parent.begin(), parent.end(), 0);
   const auto set_of = [&](int b) {
-    while (parent[b] != b) b = parent[b] = parent[parent[b]];  // halves the path for the next one
+    while (parent[b] != b) b = parent[b] = parent[parent[b]];  // halves the path for the next call
     return b;
   };
   for (int c = 0; c < problem.contact_count(); ++c) {

@@ -1,6 +1,6 @@
 #pragma once
-// Islands: the parts of a problem that have nothing to do with one another. Contacts join the
-// bodies that can move; what has no unknowns (walls, fixed bodies) joins nothing.
+// Islands: the independent parts of a problem. Contacts join the bodies that can move; bodies
+// without unknowns (undriven walls, fixed bodies) join nothing.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace ballast {
 
-/// The contacts of each island of a problem in dynamics form, ascending; islands in the order of
-/// their first bodies. Contacts between two bodies that cannot move belong to none.
+/// Returns the contacts of each island of a problem in dynamics form, ascending. Islands are in the
+/// order of their first bodies. Contacts between two bodies that cannot move belong to no island.
 std::vector<std::vector<int>> contact_islands(const FrictionProblem& problem);
 
 }  // namespace ballast

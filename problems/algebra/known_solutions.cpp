@@ -23,8 +23,8 @@ Eigen::Matrix3d random_frame(ProblemRandom& random) {
   return contact_frame(n, other);
 }
 
-/// A rigid body of about unit size: mass m, inertia about m/10, turned, so that its block is not
-/// diagonal.
+/// Adds a rigid body of about unit size: mass m, inertia about m/10, and turned axes, so that its
+/// block is not diagonal.
 void add_body(double mass, ProblemRandom& random, DynamicsForm& dynamics) {
   const Eigen::Vector3d inertia(random.uniform(0.05, 0.15), random.uniform(0.05, 0.15),
                                 random.uniform(0.05, 0.15));
@@ -36,18 +36,18 @@ void add_body(double mass, ProblemRandom& random, DynamicsForm& dynamics) {
   dynamics.add_body(block);
 }
 
-/// Rows of the velocity of a body at a point half a size away from its centre.
+/// The block of H for a random point at distance 0.5 from the centre of the body.
 Eigen::MatrixXd random_side(const Eigen::Matrix3d& frame, int rows, ProblemRandom& random) {
   return rigid_rows(frame, 0.5 * random_direction(random)).topRows(rows);
 }
 
-/// (r, u) of one contact that obeys Coulomb's law to rounding: leaves, slips or sticks.
+/// Chooses (r, u) of one contact that obeys Coulomb's law to rounding: open, slip or stick.
 void choose_solution(const KnownSolutionSettings& settings, double mu, int rows,
                      ProblemRandom& random, double* r, double* u) {
   const double kind = random.uniform(), angle = 2.0 * M_PI * random.uniform();
   const double t1 = std::cos(angle), t2 = std::sin(angle);
   const double force = random.uniform(0.1, 1.0), speed = random.uniform(0.1, 1.0);
-  // Leaves: no impulse, and any velocity that opens.
+  // Open: no impulse, and any velocity that separates.
   if (kind < settings.open_fraction) {
     u[0] = speed;
     if (rows == 3) {
@@ -56,7 +56,7 @@ void choose_solution(const KnownSolutionSettings& settings, double mu, int rows,
     }
     return;
   }
-  // Pressed: on the cone's side it slips against its impulse, inside it sticks.
+  // Closed: with r on the cone's side it slips against r, with r inside the cone it sticks.
   r[0] = force;
   if (rows == 1) return;
   if (kind < settings.open_fraction + settings.slip_fraction) {
@@ -79,8 +79,7 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
   FrictionProblem& problem = known.problem;
   DynamicsForm& dynamics = problem.dynamics;
   problem.has_dynamics = true;
-  // The order of the random numbers is part of what a seed means: bodies, contacts, answers,
-  // v_free.
+  // A seed stands for random numbers in this order: bodies, contacts, solutions, v_free.
   for (int b = 0; b < settings.bodies; ++b)
     add_body(random.log_uniform(1.0, settings.mass_ratio), random, dynamics);
 
@@ -88,7 +87,7 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
     const bool frictionless = random.uniform() < settings.frictionless_fraction;
     const int b = random.below(settings.bodies);
     const int a = random.below(settings.bodies + 1) - 1;  // -1: against the ground
-    // Against itself no body touches: that is the ground, too.
+    // No body touches itself: a == b means the ground, too.
     const Eigen::Matrix3d frame = random_frame(random);
     const int rows = frictionless ? 1 : 3;
     Eigen::MatrixXd h_a;
@@ -127,7 +126,8 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
     known.r = r;
     known.u = u;
   }
-  // Angular unknowns are taken as velocities at a distance of one length unit, so that H stays.
+  // Angular unknowns count as velocities at a distance of one length unit, so that H stays the
+  // same.
   for (double& entry : dynamics.mass) entry *= settings.mass_unit;
   dynamics.v_free *= settings.velocity_unit;
   dynamics.bias *= settings.velocity_unit;

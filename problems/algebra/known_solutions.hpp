@@ -16,9 +16,9 @@ struct KnownSolutionSettings {
   double open_fraction = 0.25;         ///< contacts with r = 0, u_N > 0
   double slip_fraction = 0.35;         ///< r on the cone's side, u_T opposite; the rest stick
   double frictionless_fraction = 0.1;  ///< one-row contacts
-  int copies = 1;  ///< of each contact, sharing its impulse: W's rank stays, its size grows
-  /// Masses are multiplied by the one, velocities by the other, impulses by both: the same motion
-  /// in other units.
+  int copies = 1;  ///< of each contact, sharing its impulse: W grows, its rank stays
+  /// Masses are multiplied by mass_unit, velocities by velocity_unit, impulses by both: the same
+  /// motion in other units.
   double mass_unit = 1.0, velocity_unit = 1.0;
   std::uint64_t seed = 1;
 };
@@ -31,12 +31,12 @@ struct KnownSolution {
 
 KnownSolution make_known_solution(const KnownSolutionSettings& settings);
 
-/// Every contact `copies` times, one copy after the other (dynamics form only). Velocities do not
-/// change; impulses are no longer unique.
+/// Repeats every contact `copies` times, its copies in a row (dynamics form only). Velocities do
+/// not change; impulses are no longer unique.
 void repeat_contacts(FrictionProblem& problem, int copies);
 
-/// Rows n, t1, t2 of a right-handed frame: n a unit vector, t1 across n and `other`, which must not
-/// be parallel to n.
+/// Rows n, t1, t2 of a right-handed frame: n is a unit vector, t1 is perpendicular to n and to
+/// `other`, which must not be parallel to n.
 inline Eigen::Matrix3d contact_frame(const Eigen::Vector3d& n, const Eigen::Vector3d& other) {
   const Eigen::Vector3d t1 = n.cross(other).normalized();
   Eigen::Matrix3d frame;
@@ -44,8 +44,8 @@ inline Eigen::Matrix3d contact_frame(const Eigen::Vector3d& n, const Eigen::Vect
   return frame;
 }
 
-/// Rows n, t1, t2 of `frame` of the velocity v + omega x arm at a point of a rigid body, as its
-/// block of H.
+/// The block of H of a rigid body: the rows n, t1, t2 of `frame` times the velocity v + omega x arm
+/// at a point.
 inline Eigen::MatrixXd rigid_rows(const Eigen::Matrix3d& frame, const Eigen::Vector3d& arm) {
   Eigen::Matrix3d cross;  // cross omega = arm x omega
   cross << 0, -arm[2], arm[1], arm[2], 0, -arm[0], -arm[1], arm[0], 0;

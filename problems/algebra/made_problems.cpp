@@ -56,10 +56,10 @@ class Pile {
     return std::max(1, static_cast<int>(std::lround(side)));
   }
 
-  /// Near the points of a cubic lattice of spacing 1, in layers from below.
+  /// Places bodies near the points of a cubic lattice of spacing 1, in layers from below.
   void place_bodies() {
-    // As many as leave the redundancy that is asked for: with B bodies and C contacts W has 3 C
-    // rows and the rank 6 B at most.
+    // The number of bodies that gives the wanted redundancy: with B bodies and C contacts W has 3 C
+    // rows and at most rank 6 B.
     const double wanted = (1.0 - settings_.redundancy) * 0.5 * settings_.contacts;
     const int bodies = std::max(1, static_cast<int>(std::lround(wanted)));
     const int side = side_of(bodies);
@@ -67,7 +67,7 @@ class Pile {
       const int row = b / side % side, layer = b / (side * side);
       const Vector3d lattice(b % side, row, layer);
       centre_.push_back(lattice + in_cube(random_, 0.2));
-      // Of about unit size: inertia about a tenth of mass times square size.
+      // Bodies have about unit size: inertia about a tenth of mass times square size.
       const double mass = random_.log_uniform(1.0, settings_.mass_ratio);
       Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(6, mass);
       for (int i = 3; i < 6; ++i) diagonal[i] = mass * random_.uniform(0.05, 0.15);
@@ -75,7 +75,7 @@ class Pile {
     }
   }
 
-  /// All fall, move towards the middle of the ground, and are stirred.
+  /// Sets v_free: all bodies fall, move towards the middle of the ground, and are stirred.
   void press_together() {
     Vector3d middle = Vector3d::Zero();
     for (const Vector3d& x : centre_) middle += x / static_cast<double>(centre_.size());
@@ -90,15 +90,15 @@ class Pile {
     }
   }
 
-  /// The nearest pairs, three for a body: the lowest layer has the ground for a neighbour.
+  /// Finds the nearest pairs, up to three per body. The lowest layer neighbours the ground.
   void find_pairs() {
     const int bodies = static_cast<int>(centre_.size());
     const int side = side_of(bodies);
     const int layer = side * side;
     for (int b = 0; b < bodies; ++b) {
       if (b < layer) pairs_.push_back({-1, b, 0.0});
-      // Steps between the numbers of lattice neighbours. One that leads over the end of a row joins
-      // bodies far apart, which the sort by distance puts last.
+      // Steps between the numbers of lattice neighbours. A step over the end of a row joins bodies
+      // far apart, which the sort by distance puts last.
       for (int step : {1, side, layer, side + 1, side - 1, layer + 1, layer + side})
         if (b >= step && step > 0)
           pairs_.push_back({b - step, b, (centre_[b] - centre_[b - step]).norm()});
@@ -109,7 +109,7 @@ class Pile {
     pairs_.resize(std::min(pairs_.size(), std::max<size_t>(1, most)));
   }
 
-  /// The points are spread evenly over the pairs.
+  /// Spreads the contact points evenly over the pairs.
   void add_contacts() {
     const int pairs = static_cast<int>(pairs_.size());
     for (int k = 0; k < pairs; ++k) {
@@ -128,7 +128,7 @@ class Pile {
         Eigen::Map<const Eigen::VectorXd>(bias_.data(), static_cast<Eigen::Index>(bias_.size()));
   }
 
-  /// A point of the pair's common face, which goes through `middle`.
+  /// Adds a random point of the pair's common face, which goes through `middle`.
   void add_contact(const Pair& pair, const Matrix3d& frame, const Vector3d& middle, double mu,
                    bool is_closed) {
     const DynamicsForm& dynamics = problem_.dynamics;
@@ -142,7 +142,7 @@ class Pile {
     };
     const Eigen::MatrixXd h_a = pair.a < 0 ? Eigen::MatrixXd() : side(pair.a, -1.0);
     problem_.add_contact(pair.a, pair.b, mu, h_a, side(pair.b, 1.0));
-    // An open gap, which is wider than what the step closes. Never below zero: rest stays allowed.
+    // An open gap is wider than the step can close. No gap is below zero: rest stays a solution.
     const double gap = is_closed ? 0.0 : 2.0 * std::abs(free[0]) + gh;
     bias_.insert(bias_.end(), {gap, 0.0, 0.0});
   }
@@ -199,7 +199,7 @@ StressProblem start(std::string name, const char* family) {
   return stress;
 }
 
-/// No walls move, and no contact is open. Every solution rests.
+/// No wall moves and no contact is open. Every solution is at rest.
 void all_rest(StressProblem& stress) {
   stress.problem.dynamics.bias.setZero(stress.problem.row_count());
   stress.u.setZero(stress.problem.row_count());
@@ -216,8 +216,7 @@ std::string number(double x) {
 StressProblem near_parallel_normals(double angle) {
   StressProblem stress = start("near-parallel normals", "odd input");
   const int body = add_body(stress.problem, Eigen::Vector3d::Ones(), Eigen::Vector3d(0, 0, -gh));
-  // The normals lean out of the vertical by the angle, one to each
-  // side: two nearly equal rows of W.
+  // The normals lean from the vertical by the angle, to opposite sides: two nearly equal rows of W.
   for (const double side : {-angle, angle}) {
     Eigen::Matrix3d h;  // x, y, z of the body; normal first
     h << std::sin(side), 0, std::cos(side), std::cos(side), 0, -std::sin(side), 0, 1, 0;
@@ -227,7 +226,7 @@ StressProblem near_parallel_normals(double angle) {
   return stress;
 }
 
-/// Contacts between things that never move.
+/// Contacts between bodies that never move.
 StressProblem bodies_fixed() {
   StressProblem stress = start("all bodies fixed", "odd input");
   for (int c = 0; c < 3; ++c) stress.problem.add_contact(-1, -1, 0.5, {}, Eigen::MatrixXd(3, 0));

@@ -7,8 +7,8 @@
 
 namespace ballast {
 
-/// At most 6 x 6. Masses are usually diagonal; then every operation is a scaling, and one cache
-/// line is all there is.
+/// At most 6 x 6. Masses are usually diagonal; then every operation is a scaling, and the root is
+/// one cache line.
 struct alignas(64) MassRoot {
   static constexpr int max_dofs = 6;
 
@@ -22,7 +22,7 @@ struct alignas(64) MassRoot {
   bool factor(const double* mass, int dof_count);
 
   void solve(double* x) const;  ///< x := M^-1 x
-  /// x := L^T x. `mass`: of which this is the root.
+  /// x := L^T x. `mass` is the block whose root this is.
   void multiply_upper(const double* mass, double* x) const;
 
   /// Calls visit(k, column) for the columns of G = H L^-T, where H is a column-major block of Rows

@@ -23,11 +23,11 @@ struct Prover {
   const FrictionProblem& problem;
   SparseRows w, absolute;  ///< W; |W|, entry by entry
   Eigen::VectorXd q;
-  std::vector<double> natural;  ///< impulse of each contact's island: NoSolution::least_growth
+  std::vector<double> natural;  ///< natural impulse of each contact's island (least_growth)
 
   int normal(int c) const { return problem.row_begin[c]; }
 
-  /// `weights` of the contacts, >= 0.
+  /// The proof by these `weights` >= 0 of the contacts.
   NoSolution proof(const Eigen::VectorXd& weights) const {
     NoSolution proof;
     const double sum = weights.sum();
@@ -38,7 +38,7 @@ struct Prover {
     // Sums that cancel to rounding prove nothing.
     if (!(proof.approach > 1e-10 * q.cwiseAbs().dot(y))) return {};
     const double slope = (w.transpose() * y).norm();
-    // Without bodies nothing says which impulses are large: W^T y must be zero to rounding.
+    // Without bodies no scale says which impulses are large: W^T y must be zero to rounding.
     if (!problem.has_dynamics && slope > cancelled * (absolute.transpose() * y).norm()) return {};
     proof.least_impulse = slope > 0.0 ? proof.approach / slope : infinity;
     double scale = 0.0;
@@ -63,8 +63,8 @@ struct Prover {
   }
 };
 
-/// |M v_free|; 0 of what does not move. Moments and momenta stand side by side: that can only make
-/// a claim rarer.
+/// |M v_free|; 0 for a body that does not move. The norm mixes linear and angular momenta, which
+/// can only make a claim rarer.
 double momentum_of(const DynamicsForm& dynamics, int body) {
   if (body < 0) return 0.0;
   const int dofs = dynamics.body_dofs(body);
@@ -73,7 +73,7 @@ double momentum_of(const DynamicsForm& dynamics, int body) {
   return (mass * dynamics.v_free.segment(dynamics.dof_begin[body], dofs)).norm();
 }
 
-/// The largest of each contact's island; where only W is known, of all.
+/// Replaces values by the largest of their contact's island; where only W is known, of all.
 void spread_over_islands(const FrictionProblem& problem, std::vector<double>& values) {
   if (values.empty()) return;
   if (!problem.has_dynamics) {
@@ -118,14 +118,14 @@ NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& 
   // Single contacts that no normal impulse moves.
   for (int c = 0; c < contacts && !best.proved(); ++c)
     if (!(diagonal[c](0, 0) > 0.0)) consider(Eigen::VectorXd::Unit(contacts, c));
-  // The impulses' own direction.
+  // The direction of the given impulses.
   Eigen::VectorXd y(contacts);
   for (int c = 0; c < contacts; ++c) {
     const double normal = r.size() == problem.row_count() ? r[prover.normal(c)] : 0.0;
     y[c] = std::isfinite(normal) ? std::max(0.0, normal) : 0.0;
   }
   consider(y);
-  // Where sweeps diverge, what a sweep adds tends to a direction that W does not see.
+  // Where sweeps diverge, the increment of a sweep tends to the null space of W.
   Eigen::VectorXd swept = Eigen::VectorXd::Zero(problem.row_count()), before;
   constexpr double most_work = 3e8;  // multiplications
   sweeps = static_cast<int>(std::min<double>(sweeps, most_work / (1.0 + prover.w.nonZeros())));

@@ -10,7 +10,7 @@ const std::string side_group = "/ballast";
 
 std::string path_of(const char* name) { return side_group + "/" + name; }
 
-/// Reads members; says which one is wrong.
+/// Reads members and names the one that is wrong.
 struct SideReader {
   Hdf5Reader file;
 
@@ -31,7 +31,7 @@ struct SideReader {
   void operator()(const char* name, std::string& to) const { to = file.read_text(path_of(name)); }
 };
 
-/// Writes members, and what divides M and H into bodies and rows.
+/// Writes members, and the arrays that divide M and H into bodies and rows.
 struct SideWriter {
   Hdf5Writer& file;
 
@@ -49,12 +49,12 @@ struct SideWriter {
   }
 };
 
-/// How M and H divide, checked against their sizes.
+/// Reads how M and H divide into bodies and rows, checked against their sizes.
 Division read_division(const SideReader& side, const GlobalProblem& global) {
   Division division;
   std::vector<int>& begin = division.dof_begin;
   begin = side.file.read<int>(path_of("dof_begin"));
-  // All of them before the first block is taken: rising as far as M's rows, they stay within M.
+  // All are checked before the first block is taken: ascending to M's rows, they stay within M.
   bool fits = !begin.empty() && begin.front() == 0 && begin.back() == global.m.rows();
   for (std::size_t b = 0; fits && b + 1 < begin.size(); ++b)
     fits = begin[b] < begin[b + 1] && begin[b + 1] - 6 <= begin[b];
@@ -75,8 +75,8 @@ Division read_division(const SideReader& side, const GlobalProblem& global) {
   return division;
 }
 
-/// The step and gravity, from which tolerances are made: what would make any answer right, or none,
-/// is refused.
+/// Checks the step and gravity, which scale the tolerances: values that would make any answer
+/// right, or none, are refused.
 void require_scales(const Hdf5Reader& file, const CapturedProblem& captured) {
   constexpr double longest_step = 1e6, fastest = 1e3;  // [s], [m/s]
   const auto words = [](double x) { return printed("%.6g", x); };
@@ -130,8 +130,8 @@ void write_captured(const std::filesystem::path& file, const CapturedProblem& ca
   std::vector<int> rows;
   for (int c = 0; c < captured.problem.contact_count(); ++c)
     rows.push_back(captured.problem.contact_rows(c));
-  // FCLIB knows neither bodies nor steps: what divides its M and H into bodies is kept beside them,
-  // and what the run knew of the step.
+  // FCLIB knows neither bodies nor steps: the side group holds the division of M and H into bodies
+  // and the data of the step.
   write_problem(file, captured.problem, StoredForms::as_known, [&](Hdf5Writer& opened) {
     opened.add_group(side_group);
     const SideWriter side{opened};

@@ -1,6 +1,6 @@
 #pragma once
-// A friction problem as a run met it: the FCLIB file that everybody reads, and beside it the group
-// /ballast with what the format has no place for.
+// A friction problem captured from a run: a standard FCLIB file with the additional group /ballast
+// for data that the format has no place for.
 //
 //   h, g, time, wall_x, wall_v, load           one double each [s] [m/s^2] [s] [m] [m/s] [N]
 //   step, phase                                one int; one text
@@ -20,8 +20,8 @@ namespace ballast {
 
 struct CapturedProblem {
   FrictionProblem problem;  ///< dynamics form, one-row contacts included
-  Impulses start;           ///< what the run carried over from the step before: the warm start
-  Impulses solution;        ///< what the run's solver returned, at the run's tolerance
+  Impulses start;           ///< the warm start, carried over from the step before
+  Impulses solution;        ///< returned by the run's solver, at the run's tolerance
 
   double h = 0.0;                                 ///< [s]
   double g = 0.0;                                 ///< |gravity| [m/s^2]; 0 without
@@ -33,15 +33,15 @@ struct CapturedProblem {
   std::vector<double> gap;         ///< per contact [m]; negative: overlap
   std::vector<double> frame;       ///< 9 per contact: N, T1, T2 in the world frame
   std::vector<double> position;    ///< 3 per contact, world frame [m]
-  std::vector<std::uint64_t> key;  ///< which features touch: stays while they do
+  std::vector<std::uint64_t> key;  ///< names the touching features; stays while they touch
   std::vector<int> id_a, id_b;     ///< bodies of the scene, walls included
 
-  /// What errors are quoted relative to: g h, or 1 m/s without gravity.
+  /// The velocity that errors are relative to: g h, or 1 m/s without gravity.
   double velocity_scale() const { return g > 0.0 ? g * h : 1.0; }
 };
 
-/// What the run knew of the step, member by member: each(name, member), and how many entries a list
-/// must have.
+/// Calls each(name, member) for the data of the step, member by member; for a list each() also gets
+/// the number of entries that it must have.
 template <typename Captured, typename Each>
 void each_member(Captured& captured, const Each& each) {
   each("h", captured.h);
@@ -63,14 +63,14 @@ void each_member(Captured& captured, const Each& each) {
   each("id_b", captured.id_b, contacts);
 }
 
-/// Whether the file is an HDF5 file with the side group. False for everything else, files that are
-/// missing included.
+/// Returns whether the file is an HDF5 file with the group /ballast. False for all else, also for
+/// missing files.
 bool is_captured(const std::filesystem::path& file);
 
-/// Throws Error: broken, or arrays that do not fit each other.
+/// Throws Error for a broken file or arrays that do not fit each other.
 CapturedProblem read_captured(const std::filesystem::path& file);
 
-/// Written beside and renamed. Throws Error; InvalidProblem for a problem without dynamics form.
+/// Writes beside and renames. Throws Error; InvalidProblem for a problem without dynamics form.
 void write_captured(const std::filesystem::path& file, const CapturedProblem& captured);
 
 }  // namespace ballast

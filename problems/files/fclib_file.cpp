@@ -15,8 +15,8 @@ namespace {
 
 using SparseColumns = Eigen::SparseMatrix<double>;
 
-/// Bodies of `size` consecutive unknowns each, and one of what is left behind the last. False: M or
-/// H forbid it. The size is known to the compiler: a division by it is made for every entry of H.
+/// Groups unknowns into bodies of `size` each and a last one of one unknown that is left. False: M
+/// or H forbid it. A constant `size` speeds up the division that every entry of H needs.
 template <int size>
 bool group(const GlobalProblem& global, Division& division) {
   const int unknowns = static_cast<int>(global.m.rows());
@@ -48,8 +48,8 @@ bool group(const GlobalProblem& global, Division& division) {
   return true;
 }
 
-/// Writes what columns first ... of a sparse matrix have in rows row_begin <= row < row_end to a
-/// dense block, by its own strides.
+/// Copies `columns` columns from `first` on, rows row_begin <= row < row_end, of a sparse matrix to
+/// a dense block with its own strides.
 void copy_block(const SparseColumns& from, int first, int columns, int row_begin, int row_end,
                 double* to, int row_stride, int column_stride) {
   for (int k = 0; k < columns; ++k)
@@ -58,10 +58,10 @@ void copy_block(const SparseColumns& from, int first, int columns, int row_begin
         to[(entry.row() - row_begin) * row_stride + k * column_stride] = entry.value();
 }
 
-/// W = H^T M^-1 H and q = H^T M^-1 f + w. By LU: stored iteration matrices need not be quite
+/// W = H^T M^-1 H and q = H^T M^-1 f + w. Uses LU: stored iteration matrices need not be quite
 /// symmetric.
 FrictionProblem condense(const GlobalProblem& global) {
-  // Zero times what is not finite is no number.
+  // Zero times an entry that is not finite is NaN.
   if (!(global.m * Eigen::VectorXd::Zero(global.m.cols()) +
         global.h * Eigen::VectorXd::Zero(global.h.cols()) + global.f)
            .allFinite() ||
@@ -77,7 +77,7 @@ FrictionProblem condense(const GlobalProblem& global) {
                        global.h.transpose() * factor.solve(global.f) + global.w, global.mu);
 }
 
-/// Where each of our rows is among three per contact.
+/// Returns the place of each row of the problem among three per contact.
 std::vector<int> file_rows(const FrictionProblem& problem) {
   std::vector<int> rows(problem.row_count());
   for (int c = 0; c < problem.contact_count(); ++c)
@@ -104,8 +104,8 @@ FrictionProblem divided(const GlobalProblem& global, const Division& division) {
     copy_block(global.m, first, dofs, first, first + dofs, dynamics.mass.data() + begin, 1, dofs);
     dynamics.mass_begin.push_back(begin + dofs * dofs);
   }
-  // FCLIB has u = H^T v + w: a contact is three columns of H, and the transposes of what stands
-  // there in the rows of either body are the blocks of ours.
+  // FCLIB has u = H^T v + w: a contact is three columns of its H. Their parts in the rows of either
+  // body, transposed, are the blocks of our H.
   std::vector<double> bias;
   for (int c = 0; c < problem.contact_count(); ++c) {
     const int rows = division.rows[c];
@@ -130,11 +130,11 @@ FrictionProblem to_friction_problem(const GlobalProblem& global) {
   if (std::ranges::count(sizes, global.f.size()) != 4 || global.h.cols() != contact_rows ||
       global.w.size() != contact_rows)
     throw InvalidProblem("the sizes of M, H, f, w and mu do not agree");
-  // The first grouping that M and H allow: rigid bodies, or points; where none does, W is formed.
+  // Takes the first grouping that M and H allow, rigid bodies or points; without one, forms W.
   Division division;
   if (!group<6>(global, division) && !group<3>(global, division)) return condense(global);
   FrictionProblem problem = divided(global, division);
-  // f = M v_free is an impulse: v_free block by block, with the masses' own factors.
+  // f = M v_free is an impulse: v_free is solved for block by block, with the masses' own factors.
   DynamicsForm& dynamics = problem.dynamics;
   dynamics.v_free = global.f;
   for (int b = 0; b < dynamics.body_count(); ++b) {
@@ -161,7 +161,7 @@ Eigen::VectorXd own_rows(const FrictionProblem& problem, const Eigen::VectorXd& 
 
 GlobalProblem to_global_problem(const FrictionProblem& problem) {
   GlobalProblem global;
-  // The file's H: ours transposed. Tangents that a one-row contact has not are empty columns.
+  // The file's H is ours transposed. Tangents that a one-row contact lacks are empty columns.
   const SparseRows h = sparse_h(problem);
   const std::vector<int> rows = file_rows(problem);
   std::vector<Eigen::Triplet<double>> entries;
@@ -202,8 +202,8 @@ namespace {
 /// `nz` says how a matrix is stored: the number of triplets, or one of these.
 constexpr int compressed_columns = -1, compressed_rows = -2;
 
-/// One matrix group, which must have this size. nzmax may exceed the datasets' length, which may
-/// exceed the entries: p, or nz, decides.
+/// Reads one matrix group, which must have this size. nzmax may exceed the length of the datasets,
+/// which may exceed the number of entries: that one is given by p, or by nz.
 template <typename Matrix>
 Matrix read_matrix(const Hdf5Reader& file, const std::string& group, int rows, int columns) {
   const auto by = [](int m, int n) { return std::to_string(m) + " x " + std::to_string(n); };
@@ -262,7 +262,7 @@ Matrix read_matrix(const Hdf5Reader& file, const std::string& group, int rows, i
   return matrix;
 }
 
-/// Plane problems and equality constraints are other problems than ours.
+/// Refuses plane problems and equality constraints, which are other problems than ours.
 void require_unilateral_3d(const Hdf5Reader& file, const std::string& root) {
   const int dimension = file.read_int(root + "/spacedim");
   if (dimension != 3)
@@ -272,9 +272,9 @@ void require_unilateral_3d(const Hdf5Reader& file, const std::string& root) {
       file.fail(root + bilateral + ": bilateral constraints are not supported");
 }
 
-// The vectors come first: the sizes of the matrices are theirs, and not what a header claims.
+// The vectors are read first: they set the sizes of the matrices, not the claims of a header.
 
-/// W, q and mu of u = W r + q: three rows a contact, normal first.
+/// Reads W, q and mu of u = W r + q, with three rows per contact, normal first.
 FrictionProblem read_local(const Hdf5Reader& file) {
   const std::string root = "/fclib_local";
   require_unilateral_3d(file, root);
@@ -285,7 +285,7 @@ FrictionProblem read_local(const Hdf5Reader& file) {
                        std::move(mu));
 }
 
-/// Compressed: unlike triplets, the order of whose index arrays the format leaves open.
+/// Writes compressed storage, since the format leaves the order of a triplet's index arrays open.
 template <typename Matrix>
 void write_matrix(Hdf5Writer& file, const std::string& group, Matrix matrix) {
   matrix.makeCompressed();

@@ -13,24 +13,24 @@ namespace ballast {
 
 /// Reads .hdf5/.h5 (FCLIB local or global, 3-D) or .dat (Siconos FrictionContact: dense, block or
 /// sparse). Throws Error. Global problems keep the dynamics form when M is block diagonal by bodies
-/// and a contact touches at most two of them; otherwise W is formed. What a run captured comes back
-/// in the form in which it was written.
+/// and a contact touches at most two of them; otherwise W is formed. A captured problem comes back
+/// as it was written.
 FrictionProblem read_problem(const std::filesystem::path& file);
 
 /// Siconos' text format of FrictionContactProblem and GlobalFrictionContactProblem: numbers
 /// separated by white space. Local: dimension, contacts, W, q, mu. Global: dimension, contacts, M,
-/// H, q, b, mu: told apart by the first matrix, which has as many rows as the contacts only when it
-/// is W. Matrices are dense, by blocks, or sparse. Not yet validated. Throws Error with the line;
+/// H, q, b, mu: told apart by the rows of the first matrix and, in doubt, by the text behind it.
+/// Matrices are dense, by blocks, or sparse. Not yet validated. Throws Error with the line;
 /// InvalidProblem.
 FrictionProblem read_siconos_text(const std::filesystem::path& file);
 
-/// By its suffix: .hdf5, .h5, .dat.
+/// Returns whether the suffix is .hdf5, .h5 or .dat.
 bool is_problem_file(const std::filesystem::path& file);
 
-/// One of a collection.
+/// One problem file of a collection.
 struct FoundProblem {
   std::filesystem::path file;
-  std::filesystem::path name;  ///< from the folder that was given on; else the file's name
+  std::filesystem::path name;  ///< path within the given folder, or the file's name
 };
 
 /// The problems that a word names: a file (that may be missing), a folder (all in and below it,

@@ -1,4 +1,4 @@
-// Siconos' text format (.dat) is read.
+// Reads Siconos' text format (.dat).
 
 #include <algorithm>
 #include <cctype>
@@ -30,7 +30,7 @@ class WordReader {
     if (!condition) fail(what);
   }
 
-  /// `of` names what is read, in messages.
+  /// Returns the next word. `of` names it in error messages.
   std::string_view next(const char* of) {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])))
       line_ += text_[at_++] == '\n';
@@ -40,7 +40,7 @@ class WordReader {
     return std::string_view(text_).substr(begin, at_ - begin);
   }
 
-  /// Whether the next words are these numbers; they are not taken.
+  /// Returns whether the next words are these numbers, and does not take them.
   bool next_are(std::initializer_list<int> numbers) {
     const std::size_t at = at_;
     const int line = line_;
@@ -68,8 +68,8 @@ class WordReader {
     if (value < 0) fail(of + (" = " + std::to_string(value)) + " is negative");
     return value;
   }
-  /// A count of things of which the rest of the file has at least one number each: a wrong one is
-  /// not asked memory for, and three times as many are an int.
+  /// Reads a count of things that have a number each in the rest of the file, so that no memory is
+  /// allocated for a wrong count. Three times the count fits in an int.
   int backed_count(const char* of) {
     const int value = count(of);
     if (value > std::numeric_limits<int>::max() / 3)
@@ -77,7 +77,7 @@ class WordReader {
     require_room(static_cast<std::size_t>(value), of);
     return value;
   }
-  /// So many numbers could stand in the rest of the file: none is shorter than a digit.
+  /// Fails unless so many numbers, of a digit at least, fit in the rest of the file.
   void require_room(std::size_t numbers, const char* of) const {
     if (numbers > text_.size() - at_) fail(std::string("the file ends within ") + of);
   }
@@ -92,7 +92,7 @@ class WordReader {
         value = real(of);
     return values;
   }
-  /// Reads words until the one that is wanted.
+  /// Reads words up to and including `word`.
   void skip_to(std::string_view word, const char* of) {
     while (next(of) != word) {
     }
@@ -123,7 +123,7 @@ struct TextMatrix {
   }
 };
 
-/// Column-major.
+/// Reads a column-major matrix.
 void read_dense(WordReader& words, TextMatrix& matrix) {
   const int rows = words.count("rows"), columns = words.count("columns");
   words.require(rows == matrix.rows && columns == matrix.columns,
@@ -134,7 +134,7 @@ void read_dense(WordReader& words, TextMatrix& matrix) {
       matrix.add(words, row, column, words.real("a dense matrix"));
 }
 
-/// Where each of `blocks` block rows (or columns) ends: they ascend to `size`, and none is empty.
+/// Reads the end of each of `blocks` block rows (or columns): they ascend to `size`, none is empty.
 std::vector<int> read_ends(WordReader& words, int blocks, int size, const char* of) {
   const std::vector<int> end = words.list<int>(blocks, of);
   const bool ascend = std::adjacent_find(end.begin(), end.end(), std::greater_equal()) == end.end();
@@ -168,14 +168,14 @@ void read_blocks(WordReader& words, TextMatrix& matrix) {
     }
 }
 
-/// CSparse's printed form; six digits only. `words` stands after the storage number.
+/// Reads CSparse's printed form (six digits only). `words` stands after rows and columns.
 void read_sparse(WordReader& words, TextMatrix& matrix) {
   enum Origin { triplet = 1, columns = 2, rows = 3 };
   constexpr const char* of = "a sparse matrix";
   const int origin = words.integer("the origin of a sparse matrix");
   words.require(origin >= triplet && origin <= rows,
                 "sparse origin " + std::to_string(origin) + " is not supported");
-  // CSparse prints for people; what is read is behind the colons, and where a line begins and ends:
+  // CSparse prints for people: values are behind colons, indices before them, a line's range ahead:
   //
   //     triplet: 6-by-6, nzmax: 2 nnz: 2        6-by-6, nzmax: 2 nnz: 2, 1-norm: 2.5
   //         0 0 : 1.5                               col 0 : locations 0 to 1
@@ -234,8 +234,8 @@ FrictionProblem read_siconos_text(const std::filesystem::path& file) {
   const int contacts = words.backed_count("the number of contacts");
   const TextMatrix first = read_matrix(words);
   words.require(first.rows == first.columns, "the first matrix is not square");
-  // Nothing in the file says which form it has. A first matrix with three rows a contact is W, with
-  // q behind it, unless the head of H follows: storage, rows and columns, whole numbers all.
+  // Nothing in the file says which form it has. A first matrix with three rows per contact is W,
+  // followed by q, unless the head of H follows: storage, rows and columns, all whole numbers.
   bool h_follows = first.rows != 3 * contacts;
   for (int storage = 0; storage <= 2; ++storage)
     h_follows = h_follows || words.next_are({storage, first.rows, 3 * contacts});

@@ -8,7 +8,7 @@ namespace ballast {
 
 namespace {
 
-/// In the plane of n and the world axis that is least along n: never near-parallel.
+/// Lies in the plane of n and the world axis least along n, which is never near-parallel to n.
 Vec3 first_tangent(const Vec3& n) {
   int axis = 0;
   n.cwiseAbs().minCoeff(&axis);
@@ -48,8 +48,8 @@ ProblemAssembler::ProblemAssembler(const MechanicalSystem& system)
       const int turn = d - body.freedom.translations;
       mass_.push_back(turn < 0 ? body.mass : body.inertia[turn]);
     }
-    // Bodies without unknowns are no bodies of the problem; the others are numbered through.
-    // Orthonormal axes and principal frames: the blocks are diagonal.
+    // Bodies without unknowns are no bodies of the problem; the others are numbered through. Axes
+    // are orthonormal and frames principal, so the blocks are diagonal.
     const Eigen::Map<const Eigen::VectorXd> diagonal(mass_.data() + mass_.size() - dofs, dofs);
     problem_body_.push_back(problem_.dynamics.add_body(diagonal.asDiagonal().toDenseMatrix()));
   }
@@ -89,7 +89,7 @@ void ProblemAssembler::unpack(const Eigen::VectorXd& v, MotionState& state) cons
   });
 }
 
-/// What find_rows() needs of a contact, into place k.
+/// Copies the input of find_rows() for a contact to place k.
 void ProblemAssembler::take_contact(const ContactPoint& contact, std::span<const Pose> poses, int k,
                                     ContactRows& block) const {
   for (int i = 0; i < 3; ++i) block.normal[i][k] = contact.normal[i];
@@ -126,7 +126,7 @@ void ProblemAssembler::write_contact(const ContactPoint& contact, const ContactR
   }
 }
 
-/// That of the two materials, else with the wall's friction, else the scene's.
+/// The law of the two materials, else with the wall's friction, else with the scene's.
 PairLaw ProblemAssembler::law_of(const ContactPoint& contact) const {
   const Side &a = sides_[contact.body_a], &b = sides_[contact.body_b];
   if (a.material >= 0 && b.material >= 0) {
@@ -139,7 +139,7 @@ PairLaw ProblemAssembler::law_of(const ContactPoint& contact) const {
           system_.restitution};
 }
 
-/// Everything but numbers: who touches whom, with how many rows, and where its blocks stand.
+/// Sets everything but numbers: which bodies touch, the rows of each contact, its places in H.
 void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts) {
   DynamicsForm& dynamics = problem_.dynamics;
   const auto set_size = [&](size_t count) {
@@ -155,12 +155,12 @@ void ProblemAssembler::lay_out(std::span<const ContactPoint> contacts) {
   for (size_t c = 0; c < contacts.size(); ++c) {
     const ContactPoint& contact = contacts[c];
     const auto [mu, e] = law_of(contact);
-    // With restitution only points that touch are contacts: an open one has nothing to reflect.
+    // With restitution only closed points are contacts: an open one has nothing to reflect.
     if (e > 0.0 && contact.gap > 0.0) continue;
     detected_[count] = static_cast<int>(c);
     if (highest_restitution_ > 0.0) restitution_[count] = e;
     const Side &a = sides_[contact.body_a], &b = sides_[contact.body_b];
-    // One row, the normal, without friction; with it two tangents besides.
+    // One row, the normal, without friction; two more, the tangents, with it.
     const int rows = mu > 0.0 ? 3 : 1;
     row += rows;
     entry += rows * (a.freedom->count() + b.freedom->count());
@@ -183,8 +183,8 @@ FrictionProblem& ProblemAssembler::fill(const StepInput& step) {
   return problem_;
 }
 
-/// The frames and the blocks of H. Each contact writes only what is its own: parts of the work go
-/// to any thread.
+/// Writes the frames and the blocks of H. Each contact writes only its own data, so that any thread
+/// may take any part of the work.
 void ProblemAssembler::write_rows(const StepInput& step) {
   DynamicsForm& dynamics = problem_.dynamics;
   rotations_.resize(step.state.pose.size());
@@ -212,7 +212,7 @@ void ProblemAssembler::write_rows(const StepInput& step) {
   });
 }
 
-/// What the velocity at the contacts has besides H v: imposed motions; open gaps or restitution.
+/// Writes the part of the contact velocity besides H v: imposed motions; open gaps or restitution.
 void ProblemAssembler::write_bias(const StepInput& step) {
   DynamicsForm& dynamics = problem_.dynamics;
   imposed_part(step, step.end_time, dynamics.bias);
@@ -239,17 +239,17 @@ void ProblemAssembler::write_bias(const StepInput& step) {
   }
 }
 
-/// Zero of what moves freely or not at all. From the detection until that time the contact moves on
-/// with the centre of the other body. Where that turns the surface's velocity within the tangent
-/// plane, it counts: otherwise a body that sticks to a turning one would leave its circle along the
-/// tangent, by w^2 h r / 2 a second.
+/// Zero for a body without imposed motion. From the detection until `time` the contact moves on
+/// with the centre of the other body. This turns the surface's velocity within the tangent plane:
+/// without that turn a body that sticks to a turning one would leave its circle along the tangent,
+/// by w^2 h r / 2 a second.
 Vec3 ProblemAssembler::imposed_velocity(const StepInput& step, int body, int other,
                                         const ContactPoint& contact, double time) const {
   const RigidBody& b = system_.bodies[body];
   if (!b.imposed) return Vec3::Zero();
   const ImposedMotion& motion = b.imposed->motion;
   const double detected = step.state.time + 0.5 * step.h;
-  // The motion's centre is not wrapped into the period, the place is.
+  // The motion's centre is not wrapped into the period, but the contact's position is.
   const Vec3 centre = motion.centre + motion.shift.at(detected);
   const Vec3 position = motion.pose_at(detected, b.imposed->start).position;
   const Vec3 arm = position - centre + system_.period.nearest(contact.position - position);

@@ -1,6 +1,6 @@
 #pragma once
-// Bodies + contact points -> friction problem. Fixed bodies carry no unknown, a driven wall carries
-// one, and a frictionless contact one row: what a scene does not need is not assembled.
+// Assembles a friction problem from bodies and contact points, with only what a scene needs: a
+// fixed body has no unknown, a driven wall has one, and a frictionless contact has one row.
 
 #include <span>
 #include <vector>
@@ -15,28 +15,28 @@ namespace ballast {
 /// normal.
 Mat3 contact_frame(const Vec3& normal);
 
-/// What one step's problem is made from.
+/// The input for one step's problem.
 struct StepInput {
   const MotionState& state;  ///< poses at which the contacts were detected, velocities at the
                              ///< beginning of the step
   std::span<const ContactPoint> contacts;
-  const Eigen::VectorXd& v_free;  ///< per unknown [m/s, rad/s]; copied, if it is not the problem's
+  const Eigen::VectorXd& v_free;  ///< per unknown [m/s, rad/s]; copied unless it is the problem's
   double h;                       ///< length of the step [s]
   double end_time;  ///< of the step [s], which began at state.time; contacts are detected midway
 };
 
 struct ContactRows;
 
-/// Turns contacts into a FrictionProblem, step after step, into the same buffers. The masses stay.
+/// Turns the contacts of each step into a FrictionProblem, in the same buffers. The masses stay.
 class ProblemAssembler {
  public:
   explicit ProblemAssembler(const MechanicalSystem& system);
 
-  /// Shares the work from now on; null: alone. The same bits either way. `team` outlives the
+  /// Shares the work from now on; null: one thread. No bit depends on it. `team` outlives the
   /// assembler.
   void use_team(WorkerTeam* team) { team_ = team; }
 
-  /// Unknowns <-> velocities. Bodies without freedom are left alone.
+  /// Convert between unknowns and velocities. Bodies without freedom are skipped.
   int dof_count() const { return problem_.dynamics.dof_count(); }
   void pack(const MotionState& state, Eigen::VectorXd& v) const;
   void unpack(const Eigen::VectorXd& v, MotionState& state) const;
@@ -48,29 +48,29 @@ class ProblemAssembler {
   /// Mass or moment of inertia of each unknown [kg, kg m^2]: the mass matrix is diagonal.
   const std::vector<double>& mass() const { return mass_; }
 
-  /// Where the contact's restitution e > 0 points still open are left out: Newton's law speaks of
-  /// contacts that are closed; otherwise an open point acts only if it would close within the step,
-  /// bias_N = gap / h.
+  /// Assembles one step's problem. A contact with restitution e > 0 is left out while it is open:
+  /// Newton's law applies to closed contacts. Otherwise an open point acts only if it would close
+  /// within the step, bias_N = gap / h.
   FrictionProblem& assemble(const StepInput& step) { return lay_out(step.contacts), fill(step); }
-  /// Its two halves. lay_out() needs no team: it can go on beside other work.
+  /// The two halves of assemble(). lay_out() needs no team: it can run beside other work.
   void lay_out(std::span<const ContactPoint> contacts);
   FrictionProblem& fill(const StepInput& step);
   /// The problem assembled last; at first one without contacts.
   FrictionProblem& problem() { return problem_; }
   const FrictionProblem& problem() const { return problem_; }
 
-  /// Which detected contact each one assembled last is; left-out points are none.
+  /// Index of each contact assembled last among the detected ones; points left out have none.
   std::span<const int> detected() const { return detected_; }
 
-  /// e u_N- <= 0 of each contact assembled last [m/s], which the normal row of its bias holds among
-  /// the rest, and e itself. Empty where nothing rebounds.
+  /// e u_N- <= 0 of each contact assembled last [m/s], which is one term of the normal row of its
+  /// bias, and e itself. Empty where nothing rebounds.
   std::span<const double> rebound() const { return rebound_; }
   std::span<const double> restitution() const { return restitution_; }
 
-  /// Of each row of the problem assembled last what imposed motions make of its velocity at the
-  /// step's end [m/s]; empty where nothing is imposed.
+  /// The part of each row's velocity at the step's end that comes from imposed motions [m/s], for
+  /// the problem assembled last; empty where nothing is imposed.
   const Eigen::VectorXd& imposed() const { return imposed_; }
-  /// What imposed motions add to r . u at the step's end [J], and at its beginning.
+  /// The part of r . u from imposed motions at the step's end [J], and at its beginning.
   double imposed_power(const Impulses& r) const {
     return imposed_.size() > 0 ? r.dot(imposed_) : 0.0;
   }
@@ -78,20 +78,20 @@ class ProblemAssembler {
     return imposed_.size() > 0 ? r.dot(imposed_before_) : 0.0;
   }
 
-  /// World-frame impulses on body b <-> stacked rows of the problem assembled last.
+  /// Convert between world-frame impulses on body b and stacked rows of the problem assembled last.
   void to_rows(std::span<const Vec3> world, std::span<const ContactPoint> contacts,
                Impulses& r) const;
   void to_world(const Impulses& r, std::span<const ContactPoint> contacts,
                 std::vector<Vec3>& world) const;
 
  private:
-  /// Velocity of what follows an imposed motion, at the contacts assembled last, in their frames:
-  /// the part of the relative velocity that is not H v. Rows as in the problem.
+  /// Velocity by imposed motions at the contacts assembled last: the part of the relative velocity
+  /// that is not H v. imposed_part() has it in contact frames, rows as in the problem.
   Vec3 imposed_velocity(const StepInput& step, int body, int other, const ContactPoint& contact,
                         double time) const;
   void imposed_part(const StepInput& step, double time, Eigen::VectorXd& rows) const;
-  /// task(c) for the contacts assembled last, task(b, freedom) for bodies that have one: each works
-  /// on what is its own, on any thread.
+  /// Call task(c) for the contacts assembled last, task(b, freedom) for bodies that have one, on
+  /// any thread: each works on its own data.
   template <class Task>
   void for_contacts(const Task& task) const;
   template <class Task>
@@ -105,7 +105,7 @@ class ProblemAssembler {
 
   const MechanicalSystem& system_;
   WorkerTeam* team_ = nullptr;
-  /// What a contact's rows need of a body, close together: bodies themselves are large.
+  /// The part of a body that a contact's rows need, kept together because bodies are large.
   struct Side {
     const Freedom* freedom;  // the same object for all bodies whose freedom is the same
     bool moves_freely;       // its unknowns are velocities along x, y, z, then the spin

@@ -17,7 +17,7 @@ BALLAST_IN_LOOP Triple cross(const Triple& p, const Triple& q) {
   return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
 }
 
-/// The axis that is nearest to being perpendicular to n, less its part along n, as a unit vector.
+/// The world axis most nearly perpendicular to n, less its part along n, as a unit vector.
 BALLAST_IN_LOOP Triple first_tangent(const Triple& n) {
   const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
   const bool is_z = z < x && z < y, is_y = !is_z && y < x;
@@ -30,7 +30,7 @@ BALLAST_IN_LOOP Triple first_tangent(const Triple& n) {
 
 }  // namespace
 
-// Sums are added up in the order in which published runs have them.
+// The order of all sums is that of published runs.
 BALLAST_FOR_EACH_CPU void find_rows(ContactRows& block) {
   ContactRows& b = block;
   for (int k = 0; k < ContactRows::size; ++k) {
@@ -41,7 +41,7 @@ BALLAST_FOR_EACH_CPU void find_rows(ContactRows& block) {
       b.tangent[t][1][k] = frame[t + 1].y;
       b.tangent[t][2][k] = frame[t + 1].z;
     }
-    // As products with the axes add up, so that zeros have their sign.
+    // Summed like products with the axes, so that zeros have the same sign.
     for (int row = 0; row < 3; ++row) {
       const Triple& f = frame[row];
       b.line[row][0][k] = f.x + (0.0 * f.y + 0.0 * f.z);

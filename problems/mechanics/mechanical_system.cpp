@@ -9,7 +9,7 @@
 namespace ballast {
 namespace {
 
-/// Parts that overlap count twice [m^3].
+/// The sum over all parts [m^3]: overlaps count twice.
 double volume_of(const BodySpec& spec) {
   if (spec.parts.empty()) return mass_properties(*spec.shape).volume;
   double volume = 0.0;
@@ -17,7 +17,7 @@ double volume_of(const BodySpec& spec) {
   return volume;
 }
 
-/// The body last added follows the motion, from where it is on.
+/// Makes the body added last follow the motion, starting from its pose.
 void impose(const ImposedMotion& motion, MechanicalSystem& system, MotionState& state) {
   RigidBody& body = system.bodies.back();
   body.imposed =
@@ -148,15 +148,15 @@ ControlVolume::ControlVolume(const Vec3& lo, const Vec3& hi) : lo_(lo), hi_(hi) 
 double ControlVolume::solid_fraction(const MechanicalSystem& system, const MotionState& state,
                                      WorkerTeam* team) {
   inside_.resize(static_cast<size_t>(system.grain_count));
-  // Grains that stand on the box's faces take nearly all the time and lie side by side: few
-  // together share them out.
+  // Grains on the box's faces take nearly all the time and lie side by side: short ranges spread
+  // them over the threads.
   run_each(team, system.grain_count, /*together=*/64, [&](int b) {
     thread_local BoxClipper clipper;
     const RigidBody& body = system.bodies[b];
     inside_[b] = clipper.volume(*body.shape.polyhedron, state.pose[b], lo_, hi_, body.volume);
   });
-  // Grains' volumes within the box over the box's own; where grains overlap both are counted. One
-  // after the other, whoever clipped them: the same bits.
+  // The grains' volumes within the box over the box's own; overlaps count twice. They are summed in
+  // order, whichever thread clipped them, so that the bits are the same.
   return std::accumulate(inside_.begin(), inside_.end(), 0.0) / volume();
 }
 

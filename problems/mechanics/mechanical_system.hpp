@@ -1,6 +1,6 @@
 #pragma once
-// A scene's bodies and walls as one list of rigid bodies, and their state; and how much of a box at
-// rest grains fill (Fig. 12 of the paper).
+// A scene's bodies and walls as one list of rigid bodies, and their state; and the solid fraction
+// of grains in a box at rest (Fig. 12 of the paper).
 
 #include <map>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace ballast {
 
-/// What of a body is unknown: translations along the first `translations` columns of `axes`
+/// The unknowns of a body: translations along the first `translations` columns of `axes`
 /// (orthonormal, world frame), and all rotations (about the body axes) or none. A driven wall has
 /// one translation, a fixed body none.
 struct Freedom {
@@ -35,7 +35,7 @@ struct RigidBody {
   ForceSpec force;      ///< on bodies
   WallSpec wall;        ///< on walls: motion, load, and mu of contacts with it
   int material = -1;    ///< a number in material_laws; -1: none
-  /// Of bodies and walls that follow an imposed motion, with the pose that it starts from.
+  /// The imposed motion that a body or wall follows, with the pose that it starts from.
   struct Imposed {
     ImposedMotion motion;
     Pose start;
@@ -44,12 +44,12 @@ struct RigidBody {
   bool is_wall() const { return shape.polyhedron == nullptr; }
 };
 
-/// What a contact between two bodies obeys.
+/// The law of contacts between two bodies.
 struct PairLaw {
   double friction, restitution;
 };
 
-/// Positions at t_k, velocities at t_k. Everything that a step changes, apart from warm starts.
+/// Positions and velocities at t_k: everything that a step changes, apart from warm starts.
 struct MotionState {
   double time = 0.0;  ///< [s]
   long step = 0;
@@ -58,7 +58,7 @@ struct MotionState {
   std::vector<Vec3> spin;      ///< angular velocity, body frame [rad/s]
 };
 
-/// Everything that stays: bodies, gravity, friction, restitution. Owns the shapes.
+/// Everything that stays the same: bodies, gravity, friction, restitution. Owns the shapes.
 struct MechanicalSystem {
   std::vector<RigidBody> bodies;
   std::vector<std::shared_ptr<const Polyhedron>> shapes;
@@ -82,7 +82,7 @@ MechanicalSystem make_system(const Scene& scene, MotionState& state);
 void add_body(MechanicalSystem& system, MotionState& state, const BodySpec& spec, double volume);
 void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec);
 
-/// Where a body with imposed motion is at that time, and how fast; spin in the body frame.
+/// Sets pose, velocity and spin (body frame) of a body with imposed motion at that time [s].
 void follow(const RigidBody& body, double time, Pose& pose, Vec3& velocity, Vec3& spin);
 
 std::vector<ContactShape> contact_shapes(const MechanicalSystem& system);
@@ -92,7 +92,7 @@ std::vector<ContactShape> contact_shapes(const MechanicalSystem& system);
 double outward_displacement(const MechanicalSystem& system, const MotionState& state, int wall);
 double outward_velocity(const MechanicalSystem& system, const MotionState& state, int wall);
 
-/// The axis-aligned box [lo, hi], world frame [m]. Keeps buffers: one per calling thread.
+/// The axis-aligned box [lo, hi], world frame [m]. Keeps buffers: one object per thread.
 class ControlVolume {
  public:
   /// Throws std::invalid_argument unless lo < hi in all three directions.
@@ -109,7 +109,7 @@ class ControlVolume {
 
  private:
   Vec3 lo_, hi_;
-  std::vector<double> inside_;  // of each grain [m^3]
+  std::vector<double> inside_;  // volume of each grain within the box [m^3]
 };
 
 }  // namespace ballast

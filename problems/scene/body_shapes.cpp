@@ -30,7 +30,7 @@ ReadShape of_parts(std::span<const PlacedShape> parts) {
   return {make_compound(parts), false, ""};
 }
 
-/// The name of a mesh file, made absolute in the resolved scene too.
+/// Reads the name of a mesh file and makes it absolute, in the resolved scene too.
 std::string read_mesh_name(TomlTable& table, const fs::path& folder) {
   const std::string file = table.text("file");
   if (file.empty()) table.fail("file", "is empty, expected the path of a mesh");
@@ -51,7 +51,7 @@ ReadShape read_mesh_shape(TomlTable& table, const fs::path& folder) {
   return shape;
 }
 
-/// Each face of the mesh is a part, with a layer behind it.
+/// Makes each face of the mesh a part, with a layer behind it.
 ReadShape read_surface(TomlTable& table, const fs::path& folder) {
   double scale = 1.0, thickness = 0.0;
   const std::string path = read_mesh_name(table, folder);
@@ -136,7 +136,7 @@ ReadShape read_shape(TomlTable& table, const fs::path& folder) {
     return read_kind(table, folder, kind);
   } catch (const MeshFileError& error) {
     table.fail("file", error.what());
-  } catch (const InvalidPolyhedron& error) {  // a box a million times thinner than wide, say
+  } catch (const InvalidPolyhedron& error) {  // e.g. a box a million times thinner than wide
     table.fail("shape", error.what());
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The shapes of bodies in a scene file: what [[body]] says of its shape, and [[body.part]] of
-// parts.
+// Reads the shapes of bodies in a scene file: the shape of [[body]], and the parts in
+// [[body.part]].
 
 #include <filesystem>
 #include <string>
@@ -11,19 +11,19 @@
 namespace ballast {
 
 /// A shape in its principal frame, as bodies have it.
-struct ReadShape : CompoundShape {  // where there are no parts the hull is the shape itself
-  bool is_surface = false;          ///< a mesh's faces: for what does not move by itself
-  std::string mesh_key;             ///< of the contents of mesh files
+struct ReadShape : CompoundShape {  // without parts the hull is the shape itself
+  bool is_surface = false;          ///< a mesh's faces: only for bodies without freedom
+  std::string mesh_key;             ///< hash of the contents of mesh files
 };
 
-/// Reads `shape` and the keys of its kind, or the tables `part`. Mesh files are named from
+/// Reads `shape` and the keys of its kind, or the tables `part`. Paths of mesh files start at
 /// `folder`. Throws Error.
 ReadShape read_shape(TomlTable& table, const std::filesystem::path& folder);
 
-/// "axis" and "angle_degrees" of a rotation.
+/// Reads "axis" and "angle_degrees" of a rotation.
 Quat read_orientation(TomlTable table);
 
-/// A mesh file's name made absolute: from the scene's folder, not from where the program runs.
+/// Makes a mesh file's name absolute: from the scene's folder, not from the working directory.
 std::string mesh_path(const std::filesystem::path& scene_folder, const std::string& name);
 
 /// Throws Error where the vector is zero.

@@ -1,5 +1,5 @@
 #pragma once
-// Motion that is given and not computed: of walls and of bodies, as a function of time.
+// Imposed motion of walls and bodies: given as a function of time, not computed.
 
 #include <utility>
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace ballast {
 
-/// rate t + amplitude (1 - cos 2 pi nu t) + what a table says: linear between its rows, which are
-/// sorted by time [s], and held before the first and after the last. Zero at rest, and at t = 0
-/// without a table. `Value`: double or Vec3.
+/// rate t + amplitude (1 - cos 2 pi nu t) + the value of a table, linear between its rows, which
+/// are sorted by time [s], and constant before the first and after the last. Zero at rest; without
+/// a table also at t = 0. `Value`: double or Vec3.
 template <class Value>
 struct Course {
   Value rate, amplitude;
@@ -18,7 +18,7 @@ struct Course {
   std::vector<std::pair<double, Value>> table = {};
 
   Value at(double t) const;
-  /// Its derivative; at a row of the table that of the piece after it.
+  /// The derivative; at a row of the table, that of the piece after the row.
   Value rate_at(double t) const;
 };
 
@@ -29,9 +29,9 @@ struct ImposedMotion {
   Vec3 centre = Vec3::Zero();                      ///< a point of the axis at t = 0 [m]
   Course<double> turn{0.0, 0.0};                   ///< about the axis, right-handed [rad]
 
-  /// Where a body is that stands at `start` when shift and turn are zero.
+  /// The pose at t of a body that is at `start` when shift and turn are zero.
   Pose pose_at(double t, const Pose& start) const;
-  /// Of the body's point that is at `place` at that time, world frame [m/s].
+  /// The velocity of the body's point that is at `place` at t, world frame [m/s].
   Vec3 velocity_at(double t, const Vec3& place) const;
   /// Angular velocity, world frame [rad/s].
   Vec3 spin_at(double t) const { return turn.rate_at(t) * axis; }

@@ -14,10 +14,10 @@ namespace {
 using enum Presence;
 
 constexpr double radians = std::numbers::pi / 180.0;
-constexpr size_t most_bodies = 100'000;  // of one entry
+constexpr size_t most_bodies = 100'000;  // of one [[body]] or [[crowd]]
 constexpr long most_models = 1'000;      // different sizes and shapes of a crowd
 
-/// "material" as its number among those of the scene; -1 without one.
+/// Reads "material" and returns its number in the scene, adding new ones; -1 without one.
 int read_material(TomlTable& table, Scene& scene) {
   std::string name;
   table.read("material", &name, {}, only_where_given);
@@ -28,7 +28,7 @@ int read_material(TomlTable& table, Scene& scene) {
   return number;
 }
 
-/// Rows [t, value ...], later ones below.
+/// Reads rows [t, value ...], which must ascend in t.
 NumberRows read_table(TomlTable& table, size_t columns, const char* unit) {
   NumberRows rows;
   table.read("table", &rows, rows_of(columns, unit), only_where_given);
@@ -46,7 +46,7 @@ void read_shift(TomlTable& table, Course<Vec3>& shift, Presence presence) {
     shift.table.emplace_back(row[0], Vec3(row.data() + 1));
 }
 
-/// `centre`: that of the turn where nothing is said of it.
+/// `centre` is the default centre of the turn.
 ImposedMotion read_motion(TomlTable table, const Vec3& centre) {
   ImposedMotion motion;
   motion.centre = centre;
@@ -109,7 +109,7 @@ WallSpec read_wall(TomlTable& table, Scene& scene) {
   return wall;
 }
 
-/// From either `mass` or `density`; a body that cannot move needs neither.
+/// Reads either `mass` or `density`; a body that cannot move needs neither.
 double read_mass(TomlTable& table, double volume, bool can_move) {
   const bool has_mass = table.has("mass"), has_density = table.has("density");
   if (has_mass && has_density)
@@ -130,8 +130,7 @@ void read_locks(TomlTable& table, BodySpec& body) {
                                "\", expected a list of \"x\", \"y\", \"z\", \"rotation\"");
     (lock == "rotation" ? body.free_rotation : body.free[at - freedoms.begin()]) = false;
   }
-  // A velocity along a locked direction could never change: `motion` says what moves in spite of
-  // all.
+  // A velocity along a locked direction could never change: such a body needs `motion`.
   for (int i = 0; i < 3; ++i)
     if (!body.free[i] && body.velocity[i] != 0.0)
       table.fail("velocity", "moves along a locked direction, expected 0 there");
@@ -147,7 +146,7 @@ void read_force(TomlTable force, ForceSpec& spec) {
   force.finish();
 }
 
-/// A body that follows a motion has no freedom: what it begins with is the motion's.
+/// A body that follows a motion has no freedom: its initial velocity is the motion's.
 void read_imposed(TomlTable& table, BodySpec& body) {
   for (const char* key : {"velocity", "spin", "locked"})
     if (table.has(key)) table.fail(key, "given together with motion, which says how it moves");
@@ -192,7 +191,7 @@ BodySpec read_body(TomlTable& table, const fs::path& folder, Scene& scene, size_
   return body;
 }
 
-/// Copy k of the bodies so far is moved k times: turned about an axis, then shifted.
+/// Copy k of the bodies so far is moved k times, each time turned about an axis, then shifted.
 void repeat(TomlTable& table, std::vector<BodySpec>& bodies) {
   int count = 1;
   Vec3 translation = Vec3::Zero(), axis = Vec3::UnitZ(), centre = Vec3::Zero();
@@ -227,7 +226,7 @@ void repeat(TomlTable& table, std::vector<BodySpec>& bodies) {
   bodies = std::move(all);
 }
 
-/// What [[crowd]] says: bodies of one kind, of sizes between two radii, in a box of space.
+/// The content of [[crowd]]: bodies of one kind, of sizes between two radii, in a box of space.
 struct CrowdSpec {
   int count = 0, subdivisions = 1;
   std::uint64_t seed = 1;
@@ -274,13 +273,13 @@ BodySpec crowd_model(const TomlTable& table, const CrowdSpec& crowd, double radi
   body.velocity = crowd.velocity;
   body.material = crowd.material;
   return body;
-} catch (const InvalidPolyhedron& error) {  // a box a million times thinner than wide, say
+} catch (const InvalidPolyhedron& error) {  // e.g. a box a million times thinner than wide
   table.fail("shape", error.what());
 }
 
-/// Each body in a cubic cell of its own, a little off its middle, layer upon layer from below.
+/// Places each body in its own cubic cell, a little off its middle, layer upon layer from below.
 std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd) {
-  constexpr double room = 1.1;  // of a cell, over the largest body's diameter
+  constexpr double room = 1.1;  // width of a cell over the largest body's diameter
   const double cell = room * 2.0 * crowd.radius;
   const Eigen::Array3d cells =
       ((crowd.to - crowd.from).array() / cell + 1e-9).floor().min(1.0 * most_bodies);
@@ -290,7 +289,7 @@ std::vector<BodySpec> make_crowd(const TomlTable& table, const CrowdSpec& crowd)
                             std::to_string(static_cast<long>(fitting)) + " bodies have room");
   Random random(crowd.seed);
   const bool is_varied = crowd.shape == "grain" || crowd.least_radius < crowd.radius;
-  std::vector<BodySpec> models, bodies;  // models: the first bodies; the others are like them
+  std::vector<BodySpec> models, bodies;  // models: the first bodies, which the others copy
   const auto along_x = static_cast<long>(cells.x()), along_y = static_cast<long>(cells.y());
   for (long k = 0; k < crowd.count; ++k) {
     const double radius = random.uniform(crowd.least_radius, crowd.radius);
@@ -323,7 +322,7 @@ void read_bodies(TomlTable& root, const fs::path& folder, Scene& scene) {
   const auto add = [&](const TomlTable& table, std::vector<BodySpec>&& bodies) {
     for (BodySpec& body : bodies) {
       check_name(table, body.name);
-      // In a world that repeats itself a body meets its own image unless it is small.
+      // In a periodic world a body meets its own image unless it is small.
       if (!scene.period.has_room_for(body.shape->circumradius()))
         table.fail("shape", "not smaller than half of scene.period");
       scene.bodies.push_back(std::move(body));

@@ -1,5 +1,5 @@
 #pragma once
-// Walls, bodies, their copies and crowds of a scene file: [[wall]], [[body]], [[crowd]] and
+// Reads walls, bodies, their copies and crowds of a scene file: [[wall]], [[body]], [[crowd]] and
 // [[contact.pair]].
 
 #include <filesystem>
@@ -11,13 +11,12 @@
 
 namespace ballast {
 
-/// Of every friction coefficient; the largest holds as a bond would.
+/// The range of every friction coefficient; the largest holds as a bond would.
 inline constexpr NumberRange friction_range{"a number from 0 to 1e4", 0.0, largest_friction, true,
                                             true};
 
 /// Reads the walls, then the bodies, then the crowds into the scene, whose period is known. Names
-/// are unique among all; unnamed ones are called wall_0, body_0, crowd_0, ... Throws
-/// Error.
+/// are unique among all; unnamed ones are called wall_0, body_0, crowd_0, ... Throws Error.
 void read_bodies(TomlTable& root, const std::filesystem::path& folder, Scene& scene);
 
 /// Reads the laws between the materials of the bodies that were read. Throws Error.

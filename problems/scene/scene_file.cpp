@@ -20,7 +20,7 @@ constexpr NumberRange roughness_range{"a number from 0 to below 0.15", 0.0, 0.15
 
 // Grains in a box.
 
-/// Classes by number; given sizes must have fractions that sum to 1. Without the key: the paper's.
+/// Reads the size classes by number, with fractions that sum to 1; without the key, the paper's.
 std::vector<SizeClass> read_distribution(TomlTable& grains) {
   if (!grains.has("distribution")) {
     toml::array kept;
@@ -74,7 +74,7 @@ GrainsSpec read_grains(TomlTable table, const fs::path& folder) {
   grains.size_convention = size == "radius" ? SizeConvention::radius : SizeConvention::diameter;
   grains.distribution = read_distribution(table);
   read_grain_shape(table.section("shape"), grains.shape);
-  // files are named in the resolved text by where they are, so that it can be read elsewhere
+  // the resolved text has absolute paths of files, so that it can be read elsewhere
   toml::array kept;
   for (const std::string& name : meshes) {
     const std::string path = mesh_path(folder, name);
@@ -129,7 +129,7 @@ void read_deposit(TomlTable table, DepositSpec& s, const GrainsSpec& grains) {
   if (grains.count % s.tiles() != 0)
     table.fail(s.tiles_x > 1 ? "tiles_x" : "tiles_y",
                "grains.count is no multiple of " + std::to_string(s.tiles()) + " tiles");
-  // as for the scene: steps are counted
+  // limits the number of steps, as for the scene
   const std::tuple<const char*, double, double> stages[] = {
       {"max_time", s.max_time, s.step},
       {"lid_time", s.lid_time, s.step},
@@ -253,7 +253,7 @@ Scene read(TomlTable& root, const fs::path& file) {
        {"scene", "gravity", "contact", "body", "wall", "crowd", "grains", "box", "deposit", "drive",
         "solver", "correction", "detection", "record", "control_volume"})
     root.know(key);
-  root.finish();  // a misspelt section first: what follows depends on which sections there are
+  root.finish();  // finds a misspelt section first: the rest depends on which sections exist
   // grains decide the kind of scene: a box to be filled, or single bodies and walls
   Scene scene;
   read_head(root.section("scene"), scene, file);
@@ -269,8 +269,8 @@ Scene read(TomlTable& root, const fs::path& file) {
   } else {
     read_body_scene(root, scene, file);
     read_material_pairs(pairs, scene);
-    // What holds whatever the masses and shapes are: where sweeps stand still, as with heavy bodies
-    // on light ones, auto turns to Newton. Sweeps are cheap beside a Newton step: it knows when.
+    // These defaults serve all masses and shapes: where sweeps stagnate, as with heavy bodies on
+    // light ones, auto turns to Newton. Sweeps are cheap beside a Newton step; auto decides when.
     scene.solver = {.name = "auto", .max_iterations = 100'000};
   }
   read_solver(root.section("solver"), scene.solver);

@@ -15,24 +15,24 @@ namespace ballast {
 /// are relative to the scene file.
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
-/// A scene with what says which one it is.
+/// A scene with the text and the key that identify it.
 struct ResolvedScene {
   Scene scene;
   std::string text;  ///< merged and validated TOML (file plus overrides): sorted keys, 17 digits
-  std::string key;   ///< of all that a run computes from: the text, and the mesh files' content
+  std::string key;   ///< hash of all input of a run: the text, and the mesh files' content
 };
 ResolvedScene resolve_scene(const std::filesystem::path& file,
                             std::span<const std::string> overrides = {});
 
-/// contact.friction of a scene whose mesh files may be gone.
+/// Reads contact.friction of a scene, whose mesh files may be missing.
 double scene_friction(const std::filesystem::path& file);
 
 /// A scene given by name ("vibrated_box") or path; names are looked up in the scene folder of the
-/// installation (see scene_folder()). Throws Error that lists what there is.
+/// installation (see scene_folder()). Throws Error that lists the known names.
 std::filesystem::path find_scene(const std::string& name_or_path);
 std::filesystem::path scene_folder();
-/// name and title of every scene in the folder, sorted. One that is no TOML is left out, and what
-/// is wrong with it is said in `unreadable`.
+/// Name and title of every scene in the folder, sorted. A file that is not valid TOML is left out,
+/// and its error is added to `unreadable`.
 std::vector<std::pair<std::string, std::string>> list_scenes(std::string* unreadable = nullptr);
 
 }  // namespace ballast

@@ -1,4 +1,4 @@
-// Where scenes are found by name, and what is seen of one without reading all of it.
+// Finds scenes by name, and reads single values of a scene without reading all of it.
 
 #include <algorithm>
 #include <cstdlib>

@@ -49,7 +49,7 @@ void write_table(const toml::table& table, const std::string& path, std::string&
   }
 }
 
-/// As toml++ keeps it.
+/// The value as toml++ keeps it.
 template <class Value>
 auto as_toml(const Value& value) {
   if constexpr (std::is_same_v<Value, Vec3>) {
@@ -72,7 +72,7 @@ auto as_toml(const Value& value) {
   }
 }
 
-// Reading: each takes the value that stands in the file, or says what is wrong with it.
+// take() reads the value that stands in the file, or returns what is wrong with it.
 
 std::string take(const toml::node& node, const ValueRule& rule, double& value) {
   const auto read = node.is_number() ? node.value<double>() : std::nullopt;
@@ -131,7 +131,7 @@ std::string take(const toml::node& node, const ValueRule& rule, NumberRows& rows
   return "";
 }
 
-/// "a number > 0", "true or false", ...: what is expected, without its unit.
+/// "a number > 0", "true or false", ...: the expectation in words, without its unit.
 template <class Value>
 std::string expected_text(const Value&, const ValueRule& rule) {
   if constexpr (std::is_same_v<Value, double>) {
@@ -157,9 +157,9 @@ std::string expected_text(const Value&, const ValueRule& rule) {
 
 constexpr const char* too_deep = "more than 1000 dots in a line";
 
-/// Each dot of a key is a level of tables, and for each level the parser and the destructors of its
-/// tables call themselves: some ten thousand of them leave the stack. (Of brackets in brackets
-/// toml++ itself counts the levels.) The first line with too many dots.
+/// Returns the first line with too many dots. Each dot of a key is a level of tables, and the
+/// parser and the tables' destructors recurse at each level: some ten thousand levels overflow the
+/// stack. (For nested brackets toml++ itself counts the levels.)
 std::optional<long> line_too_deep(std::string_view text) {
   long line = 1;
   size_t dots = 0;
@@ -171,8 +171,8 @@ std::optional<long> line_too_deep(std::string_view text) {
   return std::nullopt;
 }
 
-/// Applies "dotted.key=value". The value is moved into the tree: a copied node forgets its source,
-/// by which errors say that an override is to blame.
+/// Applies "dotted.key=value". The value is moved into the tree: a copied node loses its source, by
+/// which errors tell that an override is to blame.
 void apply(const std::filesystem::path& file, const std::string& text, toml::table& root) {
   const auto fail = [&](const std::string& what) {
     const std::string first_line = text.substr(0, text.find_first_of("\r\n"));
@@ -245,7 +245,7 @@ void TomlTable::read(std::string_view key, ValuePlace place, const ValueRule& ru
     const auto by_default = *value;
     const std::string wrong = node ? take(*node, rule, *value) : "";
     if (!wrong.empty()) fail(key, wrong + expected);
-    // Given or not, the value goes into the resolved scene, which says what the run was made with.
+    // Given or not, the value goes into the resolved scene, the record of a run's settings.
     if (presence != Presence::only_where_given || *value != by_default)
       resolved_->insert_or_assign(key, as_toml(*value));
   };

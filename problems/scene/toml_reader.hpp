@@ -1,7 +1,7 @@
 #pragma once
-// A TOML table read key by key: types and ranges are checked, every error names file, line, key and
-// value, keys that nobody asked for are errors, and what was read, defaults included, is kept as
-// the resolved table.
+// Reads a TOML table key by key: checks types and ranges, names file, line, key and value in every
+// error, refuses keys that were not asked for, and keeps all values that were read, defaults
+// included, as the resolved table.
 
 #include <toml++/toml.h>
 
@@ -37,13 +37,13 @@ inline constexpr NumberRange not_negative{"a number >= 0", 0.0,
 inline constexpr NumberRange zero_to_one{"a number from 0 to 1", 0.0, 1.0, true, true};
 inline constexpr NumberRange part_of_one{"a number > 0 and <= 1", 0.0, 1.0, false, true};
 
-/// What is asked of a value besides its type.
+/// The requirements on a value besides its type.
 struct ValueRule {
   NumberRange range = any_number;  ///< of a number
   std::int64_t low = 0;            ///< of a whole number, included
   std::int64_t high = std::numeric_limits<std::int64_t>::max();
   const char* unit = "";                ///< as messages write it, "kg/m^3"; empty: a pure number
-  std::vector<const char*> words = {};  ///< one of which a text must be; none: any text
+  std::vector<const char*> words = {};  ///< a text must be one of these; none: any text
   size_t columns = 0;                   ///< of a list of rows
 };
 inline ValueRule in(const NumberRange& range, const char* unit = "") {
@@ -60,15 +60,15 @@ inline ValueRule one_of(std::vector<const char*> words) { return {.words = std::
 enum class Presence {
   optional,  ///< absent: the default
   required,
-  /// Absent, or what it is by default: not in the resolved table. A scene.toml from before the key
-  /// was there keeps its bytes, and so its run keeps its key.
+  /// Absent or equal to the default: not in the resolved table. A scene.toml that is older than the
+  /// key keeps its bytes, and so its run keeps its key.
   only_where_given
 };
 
 /// Rows of numbers, all of one length.
 using NumberRows = std::vector<std::vector<double>>;
 
-/// Where a value is kept; its type says what stands in the file.
+/// The variable that a value is read into; its type is the one expected in the file.
 using ValuePlace = std::variant<double*, int*, std::uint64_t*, bool*, std::string*, Vec3*,
                                 std::vector<std::string>*, NumberRows*>;
 
@@ -77,14 +77,14 @@ using ValuePlace = std::variant<double*, int*, std::uint64_t*, bool*, std::strin
 /// quotes within quotes. Throws Error.
 toml::table load_toml(const std::filesystem::path& file,
                       std::span<const std::string> overrides = {});
-/// load_toml() of a text that was read.
+/// load_toml() for a text that has been read.
 toml::table parse_toml(const std::string& text, const std::filesystem::path& file,
                        std::span<const std::string> overrides = {});
 
-/// A whole document written in one way only: sorted keys, shortest digits that read back to the
-/// same double. Same table, same text.
+/// Writes a whole document in canonical form: sorted keys, shortest digits that read back to the
+/// same double. The same table gives the same text.
 std::string toml_text(const toml::table& table);
-/// One value on one line.
+/// Writes one value on one line.
 std::string toml_value_text(const toml::node& node);
 
 class TomlTable {
@@ -94,28 +94,27 @@ class TomlTable {
   TomlTable(std::string file, const toml::table& table, toml::table& resolved,
             std::string path = "");
   bool has(std::string_view key) const { return table_->contains(key); }
-  /// As it stands in the file: for keys that are the user's.
+  /// The table as it stands in the file, for keys that the user chooses.
   const toml::table& as_it_stands() const { return *table_; }
 
-  /// What is kept in `place` stays when the key is absent. Throws Error: missing, of
-  /// another type, out of range; with what was expected.
+  /// Reads a key into `place`, which keeps its value when the key is absent. Throws Error that says
+  /// what was expected: missing, of another type, out of range.
   void read(std::string_view key, ValuePlace place, const ValueRule& rule = {},
             Presence presence = Presence::optional);
-  /// A text, which must be there where nothing stands for it; a list of texts that may be empty.
+  /// Read a text, which is required without a fallback, and a list of texts, which may be empty.
   std::string text(std::string_view key, std::optional<std::string> fallback = {});
   std::vector<std::string> texts(std::string_view key);
 
   TomlTable section(std::string_view key);  ///< absent: an empty table, so that all fallbacks hold
   std::vector<TomlTable> sections(std::string_view key);  ///< an array of tables; absent: empty
 
-  /// A key that may stand here although nobody reads it: it is offered when another one is
-  /// misspelt.
+  /// Permits a key although nobody reads it: it is offered when another one is misspelt.
   void know(std::string_view key) { known_.emplace(key); }
 
-  /// What the resolved table shall say instead of what was read (a path made absolute).
+  /// Sets a value of the resolved table in place of the one read (a path made absolute).
   void replace_resolved(std::string_view key, const toml::node& value);
 
-  /// Every key must have been asked for. Throws Error with the nearest known key.
+  /// Throws Error for a key that was not asked for, with the nearest known key.
   void finish() const;
 
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;

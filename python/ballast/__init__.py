@@ -56,7 +56,7 @@ class Answer:
     reason: str  #: why the solver stopped
     iterations: int
     own_residual: float  #: the solver's own; never evidence
-    seconds: float  #: of the method, judging apart
+    seconds: float  #: of the method, without the judge
     error: dict  #: the judge's measures, as judge() returns them
 
     @property

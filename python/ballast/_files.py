@@ -20,16 +20,16 @@ class Captured:
 
     problem: Problem
     start: np.ndarray  #: the warm start, r of the step before [N s], (n, 3)
-    solution: np.ndarray  #: what the run's solver returned, at its tolerance [N s], (n, 3)
+    solution: np.ndarray  #: the run's solver's answer at its tolerance [N s], (n, 3)
     gap: np.ndarray  #: [m], (n); negative: overlap
     frame: np.ndarray  #: normal, two tangents, in the world, (n, 3, 3)
     position: np.ndarray  #: of the contact in the world [m], (n, 3)
-    key: np.ndarray  #: which features touch: stays while they do, (n)
-    bodies: np.ndarray  #: of the scene, walls included, (n, 2)
+    key: np.ndarray  #: names the features that touch; constant while they do, (n)
+    bodies: np.ndarray  #: numbers of the two bodies in the scene, walls included, (n, 2)
     h: float  #: length of the step [s]
     g: float  #: gravity [m/s^2]
-    step: int  #: of the run, counted from 1
-    time: float  #: its end [s]
+    step: int  #: number of the step in the run, counted from 1
+    time: float  #: end of the step [s]
     phase: str  #: of the driven wall: none, jammed, active, passive
     wall_x: float  #: place [m], velocity [m/s] and load [N] of the driven wall
     wall_v: float

@@ -26,7 +26,7 @@ def _compressed(form: type, matrix: Any, name: str) -> Any:
             matrix = matrix.copy()
             matrix.check_format(full_check=True)
         elif sparse.issparse(matrix):
-            matrix = sparse.coo_matrix(matrix)  # which looks at them
+            matrix = sparse.coo_matrix(matrix)  # which checks the indices
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from None
     matrix = form(matrix)

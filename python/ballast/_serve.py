@@ -18,12 +18,12 @@ _statuses = ["solved", "iteration_limit", "time_limit", "stalled", "failed", "un
 
 @dataclasses.dataclass(frozen=True)
 class Request:
-    """What a comparison asks of a solver."""
+    """The request of a comparison to a solver."""
 
     problem: Problem
     start: np.ndarray  #: r to begin with [N s], (n, 3)
     tolerance: float  #: on the scaled natural map, rms over contacts [m/s]; 0: not asked
-    fclib_tolerance: float  #: on what Siconos prints; 0: not asked
+    fclib_tolerance: float  #: on Siconos' own measure; 0: not asked
     max_iterations: int
     max_seconds: float  #: may be infinite
 

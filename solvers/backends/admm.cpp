@@ -52,12 +52,12 @@ class Admm final : public Solver {
   }
 
  private:
-  /// P for every contact, and the one factorisation that serves until it changes.
+  /// Sets P for every contact and factors once: the factorisation serves until P changes.
   bool set_penalty(double penalty) {
     penalty_ = penalty;
     for (int c = 0; c < w_.contact_count(); ++c) {
       const double rho =
-          w_.rho()[c] > 0.0 ? w_.rho()[c] : 1.0;  // where nothing moves, anything will do
+          w_.rho()[c] > 0.0 ? w_.rho()[c] : 1.0;  // where no impulse moves it, any value will do
       system_.sigma[c] = rho / penalty * Eigen::Matrix3d::Identity();
       system_.shift[c] = 1.0 / sigma(c) * Eigen::Matrix3d::Identity();
     }
@@ -66,7 +66,7 @@ class Admm final : public Solver {
 
   double sigma(int c) const { return system_.sigma[c](0, 0); }  ///< P^-1
 
-  /// One iteration of the formulas above; what x and r differ, and what r moved, on the way.
+  /// One iteration of the formulas above; measures how much x and r differ and how far r moved.
   void alternate(Impulses& r) {
     // The right-hand side P r - y - q - s n.
     for (int c = 0; c < w_.contact_count(); ++c) {
@@ -90,7 +90,7 @@ class Admm final : public Solver {
     }
   }
 
-  /// Another s, and the multiplier that goes with it. The multiplier's own u_T decides, which
+  /// Updates s, and the multiplier that goes with it. s follows the multiplier's own u_T, which
   /// changes gently: with the velocity that r gives the iteration may circle.
   void follow() {
     shift_multiplier(+1.0);
@@ -102,8 +102,8 @@ class Admm final : public Solver {
     for (int c = 0; c < w_.contact_count(); ++c) y_[w_.problem().row_begin[c]] += sign * shift_[c];
   }
 
-  /// Balances the two residuals, both velocities: what x and r differ, what r has moved (Boyd et
-  /// al. 2011, 3.4.1).
+  /// Balances the two residuals, both velocities: the difference of x and r, and the change of r
+  /// (Boyd et al. 2011, 3.4.1).
   void adapt(int count) {
     next_look_ = count + look_after_;
     // Looks become rarer: each new penalty costs a factorisation and throws the iteration back.
@@ -118,9 +118,9 @@ class Admm final : public Solver {
 
   static constexpr double relaxation = 1.6;
   static constexpr double first_penalty = 0.1;  ///< in units of lambda_max(W_cc)
-  /// Iterations between looks at the penalty; each look later by a fifth, so that it settles.
+  /// Iterations between looks at the penalty; each interval is a fifth longer, so that it settles.
   static constexpr int adapt_every = 20;
-  /// A penalty is changed by no less than this factor: it costs a factorisation.
+  /// A penalty is changed by no less than this factor: each change costs a factorisation.
   static constexpr double adapt_from = 3.0;
 
   ContactOperator w_;

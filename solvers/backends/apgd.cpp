@@ -43,9 +43,9 @@ class Apgd final : public Solver {
   }
 
  private:
-  /// The step of a projected gradient along rho_c u_c: 1 / lambda_max(D^-1 W) with D_c = I / rho_c,
-  /// by 30 products of a power iteration from a fixed start, which end some per cent below
-  /// lambda_max; 1 where W is zero.
+  /// The step of a projected gradient along rho_c u_c: 1 / lambda_max(D^-1 W) with D_c = I / rho_c.
+  /// lambda_max comes from 30 products of a power iteration with a fixed start, which end some per
+  /// cent below it. Returns 1 where W is zero.
   double gradient_step(int rows) {
     const auto divide = [this](Eigen::VectorXd& x) {
       for (int c = 0; c < w_.contact_count(); ++c) w_.put(x, c, w_.rho()[c] * w_.at(x, c));
@@ -76,7 +76,7 @@ class Apgd final : public Solver {
     return sum;
   }
 
-  /// Nesterov's momentum from nothing: the extrapolated point is the iterate.
+  /// Restarts Nesterov's momentum: the extrapolated point is the iterate.
   void restart(const Impulses& r) {
     theta_ = 1.0;
     y_ = r;
@@ -99,9 +99,9 @@ class Apgd final : public Solver {
            step_ < 1e-3 * first_step_;
   }
 
-  /// The step counts: next extrapolation, or a restart where it went against the gradient.
+  /// Accepts the step: extrapolates, or restarts where the momentum went against the gradient.
   void accept(Impulses& r) {
-    const Eigen::VectorXd& gone = (y_ = next_ - r);  // y has been used
+    const Eigen::VectorXd& gone = (y_ = next_ - r);  // y is no longer needed
     // Where the gradient step points against the way gone, the momentum has carried too far.
     const bool uphill = scaled_dot(moved_, gone) < 0.0;
     // Nesterov's sequence: theta+^2 = (1 - theta+) theta^2, beta = theta (1

@@ -7,9 +7,9 @@
 namespace ballast {
 namespace {
 
-/// sweeps_of_step() of a stored W: in multiplications, of a sweep its entries and each contact's
-/// own solution; of a step the linearisation and a factorisation, dense where rows are few or W is
-/// nearly full, else mostly bookkeeping, row by row, and fill.
+/// sweeps_of_step() for a stored W, counted in multiplications. A sweep costs W's entries and each
+/// contact's own solution; a step the linearisation and a factorisation, which is dense where rows
+/// are few or W is nearly full, else mostly bookkeeping, row by row, and fill.
 double stored_step(const FrictionProblem& problem) {
   const double contacts = problem.contact_count(), rows = problem.row_count();
   const double entries = static_cast<double>(problem.delassus.w.nonZeros());
@@ -54,14 +54,14 @@ class Auto final : public Solver {
       const double before = course.error();
       course.run(newton, problem, &newton == &burst_ ? 1e9 : steps);
       course.run(sweeps_, problem, steps * step);
-      course.run(interior_, problem, 0.5 * steps);  // of which one costs about two
+      course.run(interior_, problem, 0.5 * steps);  // one of its steps costs about two
       idle = course.error() < 0.9 * before ? 0 : idle + 1;
     }
     return course.finish();
   }
 
  private:
-  /// No contact closes without impulses, which are then a solution.
+  /// Whether no contact closes without impulses: zero impulses are then a solution.
   static bool nothing_presses(const FrictionProblem& problem) {
     Eigen::VectorXd made;
     if (problem.has_dynamics) free_contact_velocity(problem, made);
@@ -71,10 +71,10 @@ class Auto final : public Solver {
     return true;
   }
 
-  static constexpr double first_steps = 40.0;  ///< of Newton's first turn
-  /// Sweeps over few bodies that cost as much as a step: most of it is the order of elimination.
+  static constexpr double first_steps = 40.0;  ///< Newton steps in the first turn
+  /// Sweeps that cost as much as a step over few bodies: most of the step's cost is ordering.
   static constexpr double first_step = 25.0;
-  /// Of so few a sweep is as dear as a factorisation.
+  /// Where a budget has so few iterations, a sweep is as dear as a factorisation.
   static constexpr int few_iterations = 1000;
 
   LateSolver sweeps_{make_nesterov_pgs(/*returns_best=*/false)};

@@ -10,8 +10,8 @@
 namespace ballast {
 namespace {
 
-/// How sweeps are accelerated: after each the iterate goes on in a direction made of what the
-/// sweeps before have changed.
+/// A rule that accelerates sweeps: after each, the iterate moves on in a direction made of the
+/// changes of earlier sweeps.
 class SearchRule {
  public:
   virtual ~SearchRule() = default;
@@ -19,22 +19,22 @@ class SearchRule {
   virtual void reset() = 0;
   /// The search begins at the current iterate.
   virtual void forget() = 0;
-  /// The step before the next sweep. `square`: |d|^2 of what the last one changed; of none before
-  /// the first.
+  /// Returns the step before the next sweep. `square`: |d|^2 of the change d of the last sweep; 0
+  /// before the first.
   virtual SearchStep next(double square) = 0;
-  /// Told at each look [m/s]. True: the search ends, and begins at the iterate.
+  /// Told the error at each look [m/s]. True: the search ends, and the next begins at the iterate.
   virtual bool see(double error) = 0;
-  /// It is time for a look.
+  /// Whether it is time for a look.
   virtual bool asks() const { return false; }
 };
 
-// With r^_k the iterate that sweep k left, and d_k what it changed:
+// With r^_k the iterate that sweep k left, and d_k its change:
 //   r := r^_k + beta (r^_k - r^_k-1),  beta = j / (j + 2) in the j-th sweep of a search
 //   r^_k+1 := sweep(r)
-// Where a solve converges by a factor q a sweep, the best beta is about q^2: so beta is never more
+// Where iterates converge by a factor q a sweep, the best beta is about q^2: so beta is never more
 // than the mean factor of |d|^2 over the last sweeps. The law is not a minimisation, and momentum
-// may circle: a search in which |d|^2 grows ends, and after some searches that came to nothing
-// plain sweeps follow for a while.
+// may circle: a search ends when |d|^2 grows, and after some short searches in a row plain sweeps
+// follow for a while.
 class Momentum final : public SearchRule {
  public:
   void reset() override { *this = {}; }
@@ -63,9 +63,8 @@ class Momentum final : public SearchRule {
     return {.beta = beta, .gain = 0.0, .ahead = beta};
   }
 
-  /// Where a quarter more sweeps gained less than a tenth, momentum goes round without end: plain
-  /// sweeps follow, the more the more often that was so. A search ends by what its sweeps change,
-  /// in next().
+  /// Where a quarter more sweeps gained less than a tenth, momentum circles without end: plain
+  /// sweeps follow, more of them each time. next() ends a search by the changes of its sweeps.
   bool see(double error) override {
     best_ = std::min(best_, error);
     if (!asks()) return false;
@@ -83,8 +82,8 @@ class Momentum final : public SearchRule {
     age_ = 0;
     squares_[0] = least_ = square;
   }
-  /// Over the last 1, 2, 4 or 8 sweeps: their roots are square roots, which are the same on every
-  /// machine.
+  /// The mean over the last 1, 2, 4 or 8 sweeps: their roots are square roots, which are the same
+  /// on every machine.
   double mean_factor(double square) const {
     int sweeps = 1;
     while (2 * sweeps <= std::min(age_, window - 1)) sweeps *= 2;
@@ -104,9 +103,9 @@ class Momentum final : public SearchRule {
   int age_ = 0;                            ///< sweeps since the search began
   double squares_[window]{};               ///< |d|^2, by age
   double least_ = 0.0;                     ///< of the search
-  int total_ = 0, mark_ = 0, losses_ = 0;  ///< sweeps; at the last judgement; those it lost
+  int total_ = 0, mark_ = 0, losses_ = 0;  ///< sweeps; at the last judgement; lost judgements
   double best_ = std::numeric_limits<double>::max(), best_at_mark_ = best_;  ///< errors [m/s]
-  int vain_ = 0, resting_ = 0;  ///< short searches until now, plain sweeps still to come
+  int vain_ = 0, resting_ = 0;  ///< short searches in a row; plain sweeps still to come
 };
 
 // One iteration, with r^ the iterate that the last sweep left and r the one it began from:
@@ -114,8 +113,8 @@ class Momentum final : public SearchRule {
 //   beta > 1: the search restarts, p = 0, r := r^
 //   else      r := r^ + beta p,  p := beta p + d
 //   r^ := sweep(r)
-// The law is not a minimisation, and now and then the search circles: when the error has grown from
-// one look to the next, plain sweeps follow until the one after.
+// The law is not a minimisation, and the search may circle: when the error has grown from one look
+// to the next, plain sweeps follow until the look after that.
 class FletcherReeves final : public SearchRule {
  public:
   void reset() override { *this = {}; }
@@ -145,20 +144,19 @@ class FletcherReeves final : public SearchRule {
   double last_error_ = std::numeric_limits<double>::max();
 };
 
-/// When to look at the error of sweeps along a search. The square of what a sweep changes comes for
-/// nothing, and while a solve goes on it stays in one proportion to the square of the error, within
-/// a tenth.
+/// Decides when to look at the error of sweeps along a search. The square of a sweep's change costs
+/// nothing, and within a solve it stays proportional to the square of the error, within a tenth.
 class SweptChange {
  public:
   /// `is_dear`: a look costs as much as some sweeps.
   SweptChange(double aim, bool is_dear) : aim_(aim), is_dear_(is_dear) {}
 
-  /// After a look at the error [m/s]; `square` of the sweep before it, or of the first of all.
+  /// Told the error [m/s] of each look, and `square` of the sweep before it, or of the first one.
   void seen(int sweeps, double square, double error) {
     next_ = sweeps + (sweeps == 0 ? 2 : is_dear_ ? std::max(apart, sweeps / 16) : apart);
     enough_ = square * (near * aim_ / error) * (near * aim_ / error);
   }
-  /// The error is likely to be small enough.
+  /// Whether the error is likely to be small enough.
   bool promises(int sweeps, double square) const { return sweeps >= next_ && square <= enough_; }
 
  private:
@@ -169,16 +167,17 @@ class SweptChange {
   int next_ = 0;
 };
 
-/// Sweeps may be in single precision from so many iterations on: casting the records takes as long
-/// as a few sweeps in double.
+/// Solves with at least so many iterations may sweep in single precision: casting the records takes
+/// as long as a few sweeps in double.
 constexpr int single_pays_from = 16;
 
-/// Sweeps, plain or along a search. Only swept iterates, which lie in the cones, are ever judged or
-/// returned.
+/// Sweeps, plain or along a search. Besides the start only swept iterates, which lie in the cones,
+/// are ever judged or returned.
 class GaussSeidel final : public Solver {
  public:
-  /// A null rule: plain sweeps. `returns_best`: of the iterates that were looked at, where a limit
-  /// ends a solve; else the last. A search may come to iterates far worse than one before.
+  /// A null rule gives plain sweeps. With `returns_best` a solve that a limit ends returns the best
+  /// iterate that was looked at, else the last: a search may reach iterates far worse than earlier
+  /// ones.
   GaussSeidel(std::unique_ptr<SearchRule> rule, bool returns_best)
       : rule_(std::move(rule)), returns_best_(returns_best) {}
 
@@ -190,11 +189,11 @@ class GaussSeidel final : public Solver {
     Iteration iteration(budget, rule_ ? CheckSchedule{8, 1.6, 2.0} : CheckSchedule{4, 1.25});
     SweptChange change(budget.aim(), /*is_dear=*/budget.fclib);
     if (rule_) rule_->reset();
-    // Not in single precision where the budget asks for another measure, which may stop a solve
-    // between two looks of ours.
+    // No single precision where the budget asks for another measure, which may stop a solve between
+    // two looks of ours.
     sweep_->allow_single(budget.max_iterations >= single_pays_from && !budget.fclib);
     load(problem, r);
-    Impulses best(returns_best_ ? problem.row_count() : 0);  // of all looks that could be stored
+    Impulses best(returns_best_ ? problem.row_count() : 0);  // of all looks at storable iterates
     bool is_best = false, is_stored = false;
     double least = std::numeric_limits<double>::infinity(), square = 0.0;
     const auto looked = [&](double error) {
@@ -219,7 +218,7 @@ class GaussSeidel final : public Solver {
       if (iteration.is_over() && !sweep_->is_storable()) looked(last_error(problem, iteration, r));
       change.seen(iteration.count(), square, error);
     }
-    if (!is_stored) sweep_->store(problem, r);  // what moves nothing is dropped
+    if (!is_stored) sweep_->store(problem, r);  // drops impulses that move nothing
     Solved solved = iteration.finish(std::move(is_best ? best : r));
     if (std::isfinite(least) && !is_best && solved.reason != StopReason::reached_tolerance)
       go_back(problem, best, solved);
@@ -235,16 +234,16 @@ class GaussSeidel final : public Solver {
     rule_->forget();
     sweep_->start_search();
   }
-  /// `square` of the last sweep. Returns that of this one, along a search.
+  /// `square`: that of the last sweep. Returns that of this one; 0 without a search.
   double sweep(double square) {
     if (rule_) return sweep_->sweep_along(rule_->next(square));
     sweep_->sweep();
     return 0.0;
   }
 
-  /// The error [m/s] of an iterate that may be returned. Where sweeps were in single precision, it
-  /// is swept once more in double: what is returned obeys each contact's law to the rounding of
-  /// double. Else an error small enough to stop is evaluated once more from the impulses alone, as
+  /// The error [m/s] of an iterate that may be returned. After sweeps in single precision the
+  /// iterate is swept once more in double, so that it obeys each contact's law to the rounding of
+  /// double. Otherwise an error small enough to stop is evaluated again from the impulses alone, as
   /// the judge will: thousands of updates have left their rounding in the velocities.
   double last_error(const FrictionProblem& problem, const Iteration& iteration, Impulses& r) {
     const bool is_fresh = sweep_->finish_in_double();
@@ -255,7 +254,7 @@ class GaussSeidel final : public Solver {
     return sweep_->error();
   }
 
-  /// To the best, swept once more in double: what is returned obeys each contact's law.
+  /// Goes back to the best iterate and sweeps it in double: so it obeys each contact's law.
   void go_back(const FrictionProblem& problem, const Impulses& best, Solved& solved) {
     sweep_->allow_single(false);
     sweep_->load(problem, best);
@@ -295,13 +294,13 @@ SlowSweeps::SlowSweeps(double step, double at_most, const Budget& budget)
       most_(12.0 * step) {}
 
 bool SlowSweeps::operator()(int sweeps, double error) {
-  // One look may have met the error on its way up.
+  // A single look may have caught the error while it rose.
   refusals_ = left(sweeps, error) > most_ ? refusals_ + 1 : 0;
   return refusals_ > 1 && sweeps >= (error < near * budget_.aim() ? least_near_ : least_far_);
 }
 
-/// How many more sweeps it takes from this error to the aim. Errors fall about like a power of the
-/// number of sweeps, whose exponent is small in jams: by the later half of them.
+/// The number of further sweeps from this error to the aim. Errors fall about like a power of the
+/// number of sweeps; the exponent, small in jams, comes from the later half of the sweeps.
 double SlowSweeps::left(int sweeps, double error) {
   constexpr double unknown = 1e300;
   if (sweeps == 0) return unknown;

@@ -19,8 +19,8 @@ struct ConePoint {
   Eigen::VectorXd g;  ///< dual variable [m/s], which becomes u + s n
 };
 
-// Judged and returned is P_K(r - rho g): open contacts have no impulse there, though the point's
-// own r lies inside the cones.
+// The impulses that are judged and returned are P_K(r - rho g): open contacts have none there,
+// though the point's own r lies inside the cones.
 class InteriorPoint final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
@@ -48,8 +48,8 @@ class InteriorPoint final : public Solver {
   }
 
  private:
-  /// Interior-point steps with s-updates between them, until the best of the points judged is
-  /// `near`, or they stall.
+  /// Takes interior-point steps with s-updates between them, until the best error of the judged
+  /// points is at most `near`, or the steps stall.
   void approach(Course& course, double near) {
     Impulses r = course.best();
     double halved = w_.begin_at(r, u_);
@@ -76,7 +76,7 @@ class InteriorPoint final : public Solver {
         halved = course.error();
         stalled_steps = 0;
       }
-      // The same s again, until the convex problem is solved well beyond what s has still to move.
+      // Keeps s until the convex problem is solved well beyond the distance s has still to move.
       const double still = shift_.distance(w_, rounded_u_);
       if (stepped && ++steps < most_steps &&
           shift_.convex_error(w_, r, rounded_u_) > inner_part * still)
@@ -94,8 +94,7 @@ class InteriorPoint final : public Solver {
     return scale > 0.0 ? scale : 1.0;
   }
 
-  /// The point, and the velocities u_ that it gives, moved inside both cones by the problem's own
-  /// velocity.
+  /// Moves the point inside both cones by the problem's own velocity, and updates u_.
   void push_inside() {
     const double push = velocity_scale();
     for (int c = 0; c < w_.contact_count(); ++c) {
@@ -129,23 +128,23 @@ class InteriorPoint final : public Solver {
   // inverse.
   bool step() {
     if (!factor()) return false;
-    // A new s begins at the last iterate whose barrier was not yet below what s had still to move:
-    // nearer to the cones' sides it could not follow. Both sides are energies: the sum of x.z, and
-    // what s has to move times the sum of mu r_N.
+    // A new s begins at the last iterate whose barrier was not yet below the distance that s had
+    // still to move: nearer to the cones' sides it could not follow. Both sides are energies: the
+    // sum of x.z, and that distance times the sum of mu r_N.
     const double heads = sum([this](int c) { return to_cone(point_.r, c)[0]; });
     if (!(product() < shift_.distance(w_, u_) * heads)) before_ = point_;
     return advance();
   }
 
-  /// Scales the cones at the point and factors. False: it is not inside by rounding, or the matrix
-  /// not definite.
+  /// Scales the cones at the point and factors. False: by rounding the point is not inside, or the
+  /// matrix is singular.
   bool factor() {
     for (int c = 0; c < w_.contact_count(); ++c)
       if (!scale_contact(c)) return false;
     return system_.factor();
   }
 
-  /// Over the contacts that move.
+  /// The sum over the contacts that move.
   template <typename Summand>
   double sum(const Summand& summand) const {
     double total = 0.0;
@@ -163,14 +162,12 @@ class InteriorPoint final : public Solver {
   bool advance() {
     const double moving = sum([](int) { return 1.0; });
     const double nu = moving > 0.0 ? product() / moving : 0.0;
-    // Predictor: straight to the solution, and how far along it the cones allow.
+    // Predictor: the step straight to the solution, and how much of it the cones allow.
     for (int c = 0; c < w_.contact_count(); ++c)
       target_[c] = -lorentz::product(scaling_[c].lambda, scaling_[c].lambda);
     solve_newton();
     const double predicted = longest(1.0);
-    // Corrector: back to the middle as much as the predictor fell short, and its second-order term.
-    // Mehrotra's choice: a predictor that could go all the way leaves sigma = 0 and nothing is
-    // centred; one that was blocked at once gives sigma = 1.
+    // Corrector: centres by as much as the predictor fell short, and adds its second-order term.
     const double sigma = std::pow(1.0 - predicted, 3.0);
     for (int c = 0; c < w_.contact_count(); ++c) {
       const Vector dx = scaling_[c].f * to_cone(dr_, c),
@@ -179,7 +176,7 @@ class InteriorPoint final : public Solver {
       target_[c][0] += sigma * nu;
     }
     solve_newton();
-    // Stopping short of the boundary: on it the next scaling would not exist.
+    // The step stops short of the boundary, on which the next scaling would not exist.
     const double length = longest(0.99);
     point_.r += length * dr_;
     point_.g += length * dg_;
@@ -189,7 +186,7 @@ class InteriorPoint final : public Solver {
   bool moves(int c) const { return w_.rho()[c] > 0.0; }
   bool half_line(int c) const { return !(w_.friction(c) > 0.0); }
 
-  /// S x: of an impulse a point of the cone's x, of the cone's z a velocity.
+  /// S x: turns an impulse into the cone's x, and the cone's z into a velocity.
   Vector times_s(const Vector& x, int c) const {
     return half_line(c) ? Vector(x[0], 0.0, 0.0) : Vector(w_.friction(c) * x[0], x[1], x[2]);
   }
@@ -204,7 +201,7 @@ class InteriorPoint final : public Solver {
   /// The blocks P and P^-1 of one contact.
   bool scale_contact(int c) {
     Eigen::Matrix3d &p = system_.shift[c], &inverse_p = system_.sigma[c];
-    // What may not move does not: a huge P allows no dr.
+    // Rows that may not move have a huge P, which allows no dr.
     constexpr double nothing = 1e-20;
     const double lambda_max = moves(c) ? 1.0 / w_.rho()[c] : 1.0;
     inverse_p = nothing / lambda_max * Eigen::Matrix3d::Identity();
@@ -234,7 +231,7 @@ class InteriorPoint final : public Solver {
     return true;
   }
 
-  /// dr, dg for the complementarity residuals in target_.
+  /// Solves for dr and dg with the complementarity residuals in target_.
   void solve_newton() {
     // The right-hand side -e + S F (lambda \ c), zero where nothing moves.
     for (int c = 0; c < w_.contact_count(); ++c) {
@@ -246,7 +243,7 @@ class InteriorPoint final : public Solver {
       }
       w_.put(right_, c, b);
     }
-    // From lambda o (F dx + F^-1 dz) = c: dz = F (lambda \ c - F dx). Refined once, against the
+    // From lambda o (F dx + F^-1 dz) = c: dz = F (lambda \ c - F dx). Refined once, because of the
     // scaling's huge range.
     system_.solve(right_, dr_, 1);
     for (int c = 0; c < w_.contact_count(); ++c) {
@@ -260,7 +257,7 @@ class InteriorPoint final : public Solver {
     }
   }
 
-  /// `part` of the longest step that stays in all cones, at most a whole one.
+  /// `part` of the longest step that stays in all cones, at most 1.
   double longest(double part) const {
     double step = 1.0 / part;
     for (int c = 0; c < w_.contact_count(); ++c)
@@ -279,9 +276,9 @@ class InteriorPoint final : public Solver {
     w_.project(r);
   }
 
-  /// The error from which on proximal Newton is the faster, in units of the rms of q.
+  /// The error below which proximal Newton is faster, in units of the rms of q.
   static constexpr double polish_from = 1e-4;
-  /// s is renewed when the convex problem is solved to this part of what s has to move.
+  /// s is renewed when the convex problem is solved to this part of the distance s has to move.
   static constexpr double inner_part = 0.1;
   static constexpr int most_steps = 25;  ///< with one s
   static constexpr int patience = 40;    ///< steps without the best error halved
@@ -292,7 +289,7 @@ class InteriorPoint final : public Solver {
   std::vector<lorentz::Scaling> scaling_;
   std::vector<Vector> target_;  ///< c in step()
   Eigen::VectorXd q_, u_, rounded_u_, right_, dr_, dg_;
-  /// Begins at once: sweeps would undo what the interior point has balanced.
+  /// Begins without sweeps, which would undo the balance of the interior point.
   LateSolver polisher_{make_proximal_newton({.start_sweeps = 0})};
 };
 

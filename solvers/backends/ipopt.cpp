@@ -30,8 +30,8 @@ VectorXd from_polar(const ConeProgram& cones, const VectorXd& y) {
   return x;
 }
 
-/// Near the request's start, with x_N >= 0.1 and |d| <= 0.9. Where x_T says nothing, d points
-/// halfway to the disc's edge, against the sliding: friction will most likely ask for that.
+/// A point near the request's start, with x_N >= 0.1 and |d| <= 0.9. Where x_N = 0 leaves d open,
+/// it points halfway to the disc's edge against the sliding, as friction most likely does.
 VectorXd start_inside(const ConeProgram& cones, const ConeRequest& request) {
   constexpr double floor = 0.1, longest = 0.9;
   const VectorXd &x = request.start, u = cones.w * x + request.q;
@@ -136,7 +136,7 @@ class ConeNlp final : public Ipopt::TNLP {
   }
 
  private:
-  /// x_row depends on at most two entries of y.
+  /// The derivatives of x_row, which depends on at most two entries of y.
   struct Slopes {
     int count, entry[2];
     double slope[2];
@@ -152,7 +152,7 @@ class ConeNlp final : public Ipopt::TNLP {
     if (row == normal) return {1, {row, 0}, {1.0, 0.0}};
     return {2, {normal, row}, {cones_.friction[k] * y[row], cones_.friction[k] * y[normal]}};
   }
-  /// value * x_i x_j, second derivatives of products of first ones: lower triangle.
+  /// Adds the lower triangle of value * x_i' x_j'^T, the product of two first derivatives.
   void add_product(const VectorXd& y, int i, int j, double value) {
     const Slopes a = slopes(y, i), b = slopes(y, j);
     for (int p = 0; p < a.count; ++p)
@@ -185,7 +185,7 @@ class ConeNlp final : public Ipopt::TNLP {
   }
 
   static VectorXd take(const Number* x, Index size) { return Eigen::Map<const VectorXd>(x, size); }
-  /// Ipopt shortens its step when it is told that a value is none.
+  /// False where a value is not finite: Ipopt then shortens its step.
   static bool give(const VectorXd& x, Number* out) {
     std::copy(x.begin(), x.end(), out);
     return x.allFinite();
@@ -211,8 +211,8 @@ class IpoptCone final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override { cones_.take(problem); }
 
-  /// Each solve is a child process: Debian's Ipopt 3.11 with MUMPS does not survive a second one in
-  /// the same process.
+  /// Each of Ipopt's solves runs in a child process: Debian's Ipopt 3.11 with MUMPS does not
+  /// survive a second one in the same process.
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     constexpr int patience = 12;
     return cones_.solve(problem, std::move(start), budget, patience,
@@ -230,7 +230,7 @@ class IpoptCone final : public Solver {
     options.SetStringValue("sb", "yes");
     options.SetStringValue("linear_solver", "mumps");
     options.SetStringValue("nlp_scaling_method", "none");  // the program is scaled already
-    options.SetNumericValue("bound_relax_factor", 0.0);    // the cone is the cone
+    options.SetNumericValue("bound_relax_factor", 0.0);    // the cone is not relaxed
     // No "acceptable" level: a round ends where the program is solved, or at a limit.
     const double tolerance = std::clamp(1e-2 * request.accuracy, 1e-13, 1e-6);
     options.SetNumericValue("tol", tolerance);
@@ -238,7 +238,7 @@ class IpoptCone final : public Solver {
     options.SetNumericValue("compl_inf_tol", tolerance);
     options.SetIntegerValue("acceptable_iter", 0);
     options.SetIntegerValue("max_iter", std::min(500, request.left.max_iterations));
-    // In time to hand out what there is; the parent kills at the limit itself.
+    // Leaves time to return the iterate; the parent kills the process at the limit itself.
     if (request.left.max_seconds < 1e6)
       options.SetNumericValue("max_cpu_time", std::max(1e-3, 0.9 * request.left.max_seconds));
   }

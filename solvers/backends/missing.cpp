@@ -1,4 +1,4 @@
-// In place of the backends whose libraries CMake has not found.
+// Replaces the makers of backends whose libraries CMake has not found.
 
 #include "solvers/backends/backends.hpp"
 

@@ -21,7 +21,7 @@ class NewtonStep {
   }
   void use_team(WorkerTeam* team) { system_.use_team(team); }
 
-  /// Starts at `r`, which is also the centre; contacts that nothing moves lose their impulse, which
+  /// Starts at `r`, which is also the centre. Contacts that no impulse moves lose theirs, which
   /// would stay in the answer.
   void begin(ContactEquation equation, double rho_factor, const Impulses& r) {
     equation_ = equation;
@@ -40,24 +40,24 @@ class NewtonStep {
     for (int c = 0; c < w_.contact_count(); ++c)
       alpha_[c] = w_.rho()[c] > 0.0 ? weight / w_.rho()[c] : 0.0;
   }
-  /// The centre moves to the iterate.
+  /// Moves the centre to the iterate.
   void centre() { centre_ = r_; }
-  /// The iterate goes (back) to `r`.
+  /// Moves the iterate (back) to `r`.
   void restart(const Impulses& r) {
     r_ = r;
     w_.velocity(r_, u_);
   }
 
   /// One factorisation and a backtracking line search on residual(). False: singular, or no
-  /// descent; a step without descent is still taken where it changes the residual by less than a
-  /// tenth, so that flat places can be left, and taken whole with `halvings` = 0.
+  /// descent. A step without descent is still taken where it raises the residual by less than a
+  /// tenth, so that flat places can be left; with `halvings` = 0 it is taken whole in any case.
   bool newton(int halvings) {
     linear_.resize(w_.contact_count());
     for (int c = 0; c < w_.contact_count(); ++c) {
       if (w_.rho()[c] > 0.0)
         linear_[c] = linearise(equation_, w_.at(r_, c), proximal_velocity(r_, u_, c),
                                w_.friction(c), rho_factor_ * w_.rho()[c]);
-      else  // nothing moves: no impulse
+      else  // no impulse moves it: dr = 0
         linear_[c] = {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(),
                       Eigen::Matrix3d::Zero()};
     }
@@ -65,8 +65,8 @@ class NewtonStep {
     // Backtracking along the step; u moves with r, as both are linear.
     const double before = residual();
     w_.multiply(dr_, du_);
-    // Halved until the residual has fallen by 1e-4 of what the linear model promises; the least
-    // one on the way is what is taken.
+    // Halves the step until the residual has fallen by 1e-4 of the linear model's promise, and
+    // takes the trial with the least residual.
     double t = 1.0, best_t = 0.0,
            best = halvings > 0 ? before * 1.1 : std::numeric_limits<double>::max();
     for (int k = 0; k <= halvings; ++k, t *= 0.5) {
@@ -80,7 +80,7 @@ class NewtonStep {
       if (residual_there <= (1.0 - 1e-4 * t) * before) break;
     }
     if (best_t == 0.0) return false;
-    // Velocities afresh: what the trials have rounded is not kept.
+    // Computes the velocities afresh, without the rounding of the trials.
     r_ += best_t * dr_;
     w_.velocity(r_, u_);
     return best < before;
@@ -93,7 +93,7 @@ class NewtonStep {
   const Impulses& impulses() const { return r_; }
 
  private:
-  /// u + alpha (r - centre): the velocity that the law is asked of. At the centre it is u itself.
+  /// u + alpha (r - centre): the velocity in the proximal law. At the centre it is u itself.
   Eigen::Vector3d proximal_velocity(const Impulses& r, const Eigen::VectorXd& u, int c) const {
     return w_.at(u, c) + alpha_[c] * (w_.at(r, c) - w_.at(centre_, c));
   }
@@ -120,7 +120,7 @@ class NewtonStep {
   Eigen::VectorXd u_, du_, u_trial_;
 };
 
-/// Nothing is left to do for who looks at the error after every step.
+/// Whether nothing is left to do for a method that looks at the error after every step.
 bool is_over(const Course& course) {
   return course.over() || course.idle() >= Iteration::stalled_after;
 }
@@ -158,9 +158,9 @@ class Newton final : public Solver {
   }
 
  private:
-  /// alpha rho where none is wanted: velocity-space elimination needs a regular contact block.
-  /// Where W is singular, 1 / weight times the rounding of u, about 1e-16 |q|, comes into r: a step
-  /// without descent is taken for that and the weight grows.
+  /// alpha rho where no proximal term is wanted: the elimination in velocity space needs a regular
+  /// contact block. Where W is singular, 1 / weight times the rounding of u, about 1e-16 |q|, comes
+  /// into r: a step without descent is taken for a sign of that, and the weight grows.
   static constexpr double smallest_weight = 1e-7, largest_weight = 1e-3;
   static constexpr int most_halvings = 12;  ///< of a step
   static constexpr int most_failures = 8;   ///< in a row
@@ -188,8 +188,8 @@ class ProximalNewton final : public Solver {
     Course course(budget, std::move(start));
     step_.begin(ContactEquation::alart_curnier, settings_.rho_factors[0], course.best());
     course.offer(step_.impulses(), step_.error());
-    // The start is swept first, a warm one too: Newton converges from near by only, and of a warm
-    // start hundreds of contacts have another status by now.
+    // Even a warm start is swept first: Newton converges from near by only, and hundreds of
+    // contacts of a warm start have another status in this problem.
     if (budget.max_iterations > 0 && settings_.start_sweeps > 0)
       sweep(problem, settings_.start_sweeps, course);
     double weight = settings_.first_weight, halved = course.error();
@@ -210,7 +210,7 @@ class ProximalNewton final : public Solver {
         ++failures;
         weight = std::min(1e3, weight * 4.0);
         step_.set_rho_factor(settings_.rho_factors[failures % 3]);
-        // sweeps mend locally what misled Newton: contacts that opened or began to slip
+        // sweeps mend locally the contacts that misled Newton: they opened or began to slip
         sweep(problem, settings_.mending_sweeps, course);
       }
     }
@@ -220,7 +220,7 @@ class ProximalNewton final : public Solver {
   }
 
  private:
-  /// So many sweeps from the iterate, which are not counted.
+  /// Does `count` sweeps from the iterate; they do not count as iterations.
   void sweep(const FrictionProblem& problem, int count, Course& course) {
     Budget budget = course.rest();
     budget.max_iterations = count;
@@ -229,11 +229,11 @@ class ProximalNewton final : public Solver {
     course.offer(step_.impulses(), step_.error());
   }
 
-  /// One proximal step from the current iterate. Newton steps taken; one more than allowed: failed,
-  /// and the iterate is where the step began; -1: the course is over.
+  /// One proximal step from the current iterate. Returns the number of Newton steps; inner_steps +
+  /// 1 where it failed, with the iterate back where the step began; -1 where the course is over.
   int proximal_step(double weight, Course& course) {
-    // The centre is here. The inner Newton has to reduce the residual of the law itself at this
-    // point.
+    // The centre is the current iterate. The inner Newton has to reduce the residual that the law
+    // itself has there.
     step_.centre();
     step_.set_proximal(0.0);
     const double begin = step_.residual();
@@ -251,7 +251,7 @@ class ProximalNewton final : public Solver {
     return inner_steps + 1;
   }
 
-  /// Of the residual, that an inner Newton must reach.
+  /// The part of the residual that an inner Newton must reach.
   static constexpr double inner_reduction = 0.5;
   static constexpr int inner_steps = 12;  ///< after which a proximal step has failed
   /// Part of the budget's iterations without halving the error, after which it gives up.

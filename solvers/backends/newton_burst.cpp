@@ -10,8 +10,8 @@
 namespace ballast {
 namespace {
 
-/// Impulses and the contact velocities that they give, u = W r + q. Linear in each other: an
-/// iterate and a step of it are combined alike.
+/// Impulses and the contact velocities that they give, u = W r + q. As u is linear in r, iterates
+/// and steps are combined alike.
 struct NewtonIterate {
   Impulses r;
   Eigen::VectorXd u;
@@ -32,11 +32,11 @@ class RegularNewton {
   }
   void use_team(WorkerTeam* team) { system_.use_team(team); }
 
-  /// Every impulse into its cone, which a Newton step may leave; u from r afresh. Returns the
-  /// judge's error [m/s].
+  /// Moves every impulse into its cone, which a Newton step may leave, and computes u from r
+  /// afresh. Returns the judge's error [m/s].
   double settle(NewtonIterate& at) { return w_.begin_at(at.r, at.u); }
 
-  /// From here on the law is regularised by `epsilon` around `centre`, and no status is known.
+  /// Regularises the law by `epsilon` around `centre` from here on; no status is known.
   void set_centre(const Impulses& centre, double epsilon) {
     centre_ = centre;
     epsilon_ = epsilon;
@@ -51,9 +51,9 @@ class RegularNewton {
   /// the centre.
   double residual(const NewtonIterate& at) { return w_.error(at.r, regular_velocity(at)); }
 
-  /// Every contact's status at `at`, and its law linearised for it. Returns how many contacts had
-  /// another status when they were last linearised around this centre; 0 the first time. A step is
-  /// exact for the statuses that it was made for; where many change it means little.
+  /// Finds every contact's status at `at` and linearises the law for it. Returns how many contacts
+  /// had another status when they were last linearised around this centre; 0 the first time. A step
+  /// is exact for the statuses that it was made for; where many change it means little.
   int linearise(const NewtonIterate& at) {
     int changed = 0;
     const Eigen::VectorXd& u = regular_velocity(at);
@@ -62,7 +62,7 @@ class RegularNewton {
       RegularStep law;
       if (rho > 0.0)
         law = regular_step(w_.friction(c), rho, epsilon_, w_.at(at.r, c), w_.at(u, c));
-      else  // nothing moves: no impulse
+      else  // no impulse moves it: it gets none
         law.source = -w_.at(at.r, c);
       changed += has_status_ && law.status != status_[c];
       status_[c] = law.status;
@@ -73,15 +73,15 @@ class RegularNewton {
     return changed;
   }
 
-  /// One factorisation: the full step from where the law was linearised. It may raise the residual
-  /// a hundredfold where statuses change. False: the matrix is singular or the step not finite.
+  /// One factorisation: the full step from the point of linearisation. It may raise the residual a
+  /// hundredfold where statuses change. False: the matrix is singular or the step not finite.
   bool step(NewtonIterate& change) {
     change.r = source_;
     return system_.solve_springs(w_, gain_, change.r, change.u, /*enough=*/1e-10);
   }
 
  private:
-  /// u + epsilon_c (r - centre), until the next call.
+  /// u + epsilon_c (r - centre); the reference holds until the next call.
   const Eigen::VectorXd& regular_velocity(const NewtonIterate& at) {
     return u_ = at.u + compliance_.cwiseProduct(at.r - centre_);
   }
@@ -97,7 +97,7 @@ class RegularNewton {
   bool has_status_ = false;
 };
 
-/// The compliance, as a part of lambda_max(W_cc).
+/// The compliance epsilon_c in units of lambda_max(W_cc).
 constexpr double first_epsilon = 3e-4, smallest_epsilon = 1e-8, largest_epsilon = 0.1;
 /// Below this part of the error at zero impulse there are no more bursts.
 constexpr double endgame_from = 1e-4;
@@ -139,7 +139,7 @@ class NewtonBurst final : public Solver {
     }
     if (course.over()) return course.finish();
     make_ready();
-    // The error without any impulse says how large the problem's velocities are.
+    // The error without any impulse gives the scale of the problem's velocities.
     NewtonIterate at{Impulses::Zero(problem.row_count()), {}};
     const double scale = newton_.settle(at), end = endgame_from * scale;
     at.r = course.best();
@@ -159,14 +159,14 @@ class NewtonBurst final : public Solver {
     int steps;
   };
 
-  /// Ordering and analysis cost as much as hundreds of sweeps, and most solves do without.
+  /// Ordering and analysis cost as much as hundreds of sweeps, and most solves do not need them.
   void make_ready() {
     if (is_ready_) return;
     newton_.prepare(*problem_);
     is_ready_ = true;
   }
 
-  /// Accelerated sweeps from `at`, at most so many. Returns the error there [m/s].
+  /// Does at most `sweeps` accelerated sweeps from `at`. Returns the error there [m/s].
   double burst(Course& course, NewtonIterate& at, int sweeps) {
     Budget budget = course.rest();
     budget.max_iterations = std::min(budget.max_iterations, sweeps);
@@ -180,10 +180,10 @@ class NewtonBurst final : public Solver {
   }
 
   /// Newton steps with a burst after each. A step nearly always raises the error, a hundredfold
-  /// where light contacts changed their status; what counts is where the sweeps after it end. Ends
-  /// below the error `end`, or where three rounds in a row gained nothing.
+  /// where light contacts changed their status; only the error after the sweeps counts. Ends below
+  /// the error `end`, or where three rounds in a row gained nothing, or sweeps twice undid a step.
   void descend(Course& course, NewtonIterate& at, double& error, double end) {
-    // A burst takes a quarter of a step's time, but no more than mends statuses.
+    // A burst takes a quarter of a step's time, but no more than statuses need.
     const double quarter = 0.25 * sweeps_of_step(problem_->contact_count());
     const int burst_sweeps = static_cast<int>(std::clamp(quarter, 10.0, 200.0));
     double epsilon = first_epsilon;
@@ -209,11 +209,11 @@ class NewtonBurst final : public Solver {
         after = swept_error;
         at = std::move(swept);
       }
-      // Less compliance where a round gained much, more where it lost; back where it lost much.
+      // Less compliance where a round gained much, more where it lost; a large loss is undone.
       if (after < 0.4 * error) epsilon = std::max(1e-6, 0.5 * epsilon);
       if (after > error) epsilon = raised(epsilon, 4.0);
       slow = after > 0.97 * error ? slow + 1 : 0;
-      // Twice in a row sweeps undid what the step had gained: what is left are long waves.
+      // Where sweeps undo a step's gain twice in a row, only long waves of the error are left.
       undone = is_undone ? undone + 1 : 0;
       if (after > 2.0 * error && !course.over()) {
         at = before;
@@ -225,10 +225,10 @@ class NewtonBurst final : public Solver {
 
   /// Proximal-point steps by Newton alone: sweeps after a converged step would undo its long waves.
   /// Where steps gain little, as in jams, they drift: each goes on in the last one's direction, as
-  /// far as the compliance lets it. Sweeps then go further in less time. Ends where steps fail one
-  /// after the other, or gain little for long.
+  /// far as the compliance lets it. go_along() then goes further in less time. Ends where many
+  /// steps in a row fail, or gain little for long.
   void endgame(Course& course, NewtonIterate& at, double error) {
-    // Patience pays where contacts are few; of many the walk comes out of jams sooner.
+    // Patience pays where contacts are few; with many, the walk comes out of jams sooner.
     const bool are_few = problem_->contact_count() <= few_contacts;
     const int most_failures = are_few ? 40 : 4, most_slow_steps = are_few ? 200 : 15;
     double epsilon = first_epsilon, halved = error;
@@ -239,7 +239,7 @@ class NewtonBurst final : public Solver {
       const double after = newton_.settle(at);
       course.offer(at.r, after);
       if (inner.converged && after < 1.5 * error) {
-        // The next step may go further, the easier this one was.
+        // The easier this step was, the further the next one may go.
         epsilon *= inner.steps <= 2 ? 0.2 : inner.steps <= 3 ? 0.4 : inner.steps <= 5 ? 0.7 : 1.0;
         epsilon = std::max(epsilon, smallest_epsilon);
         failures = 0;
@@ -261,8 +261,8 @@ class NewtonBurst final : public Solver {
     }
   }
 
-  /// Two steps more from `before` to `at`, and sweeps, which mend the statuses there, for a third
-  /// of the time of the step's Newton steps. Kept unless the error grows fourfold.
+  /// Goes on by twice the step from `before` to `at`, then sweeps to mend the statuses there, for a
+  /// third of the time of the step's Newton steps. Kept unless the error grows fourfold.
   void go_along(Course& course, NewtonIterate& at, const NewtonIterate& before, double& error,
                 int newton_steps) {
     NewtonIterate ahead = at;
@@ -275,7 +275,7 @@ class NewtonBurst final : public Solver {
   }
 
   /// Newton steps on the law regularised around `at`, until the residual is a third of the error
-  /// there. `at` is left wherever they ended.
+  /// there. Leaves `at` wherever they ended.
   Inner proximal_step(Course& course, NewtonIterate& at, double error, double epsilon) {
     constexpr double enough = 0.3;
     constexpr int most_steps = 10, most_stalled = 3;
@@ -298,8 +298,8 @@ class NewtonBurst final : public Solver {
     }
   }
 
-  /// Along change_: t = 1, 1/2, 1/4, ... until the residual falls by enough, at most so many
-  /// trials; then the best of them. Returns the residual there [m/s].
+  /// Moves along change_: tries t = 1, 1/2, 1/4, ... until the residual falls by enough, at most
+  /// `trials` times, and takes the best. Returns the residual there [m/s].
   double advance(NewtonIterate& at, double before, int trials) {
     double t = 1.0, least = std::numeric_limits<double>::max();
     for (int k = 0; k < trials; ++k, t *= 0.5) {
@@ -320,7 +320,7 @@ class NewtonBurst final : public Solver {
   const bool begins_with_sweeps_;
   std::unique_ptr<Solver> sweeps_ = make_nesterov_pgs(/*returns_best=*/false);
   RegularNewton newton_;
-  // Proximal-point steps that may pass through worse places, which come out of jams.
+  // Proximal-point steps that may pass through worse iterates, and so come out of jams.
   LateSolver short_walk_{make_proximal_newton({.start_sweeps = 0})};
   LateSolver walk_{make_proximal_newton(
       {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}})};

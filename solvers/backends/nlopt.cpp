@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// What NLopt's callbacks see: the cone program over the contacts that are not left at zero.
+/// The data of NLopt's callbacks: the cone program over the contacts that are not left at zero.
 struct Program {
   SparseRows w;
   VectorXd q;
@@ -81,7 +81,7 @@ class Nlopt final : public Solver {
     }
     answer.x = std::move(x);
     if (row.empty()) return;
-    // The program of the contacts that are left, and what NLopt makes of it.
+    // NLopt solves the program of the contacts that are left.
     program.w = chosen(cones_.w, row);
     program.q = request.q(row);
     VectorXd y = answer.x(row);
@@ -90,7 +90,7 @@ class Nlopt final : public Solver {
     answer.x(row) = y;
   }
 
-  /// Evaluations spent; `y` is the start and the answer.
+  /// Returns the evaluations spent; `y` is the start and becomes the answer.
   int optimise(const ConeRequest& request, Program& program, const std::vector<int>& row,
                VectorXd& y) const {
     const unsigned n = static_cast<unsigned>(row.size()),
@@ -110,7 +110,7 @@ class Nlopt final : public Solver {
     nlopt_set_maxeval(optimiser, std::min(most_evaluations, request.left.max_iterations));
     nlopt_set_maxtime(optimiser, std::max(1e-3, request.left.max_seconds));
     double value = 0.0;
-    nlopt_optimize(optimiser, y.data(), &value);  // whatever it says: the judge looks at y
+    nlopt_optimize(optimiser, y.data(), &value);  // its status is ignored: the judge looks at y
     const int evaluations = nlopt_get_numevals(optimiser);
     nlopt_destroy(optimiser);
     return evaluations;

@@ -15,9 +15,9 @@ namespace {
 //   gamma_c = P_K(r_c - u_c / epsilon_c),  u = H v + bias,  epsilon_c = regularisation
 //   lambda_max(W_cc)
 //
-// by Newton with an exact line search; then r := gamma, and again. Where only W is known the
-// velocities are those of impulses lambda, v = v_free + M^-1 H^T lambda, and Newton's unknowns are
-// these: W must then be symmetric.
+// by Newton with an exact line search; then r := gamma, and the next problem follows. Where only W
+// is known the velocities are those of impulses lambda, v = v_free + M^-1 H^T lambda, and lambda
+// are Newton's unknowns: W must then be symmetric.
 class Sap final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
@@ -47,7 +47,7 @@ class Sap final : public Solver {
       lambda_ = gamma_;
     else
       body_velocity(problem.dynamics, problem.row_begin, gamma_, v_);
-    int newtons = 0;  // for the problem at hand
+    int newtons = 0;  // steps on the problem at hand
     bool done = false;
     while (!done && iteration.next()) {
       if (newtons == 0) place(problem);
@@ -57,7 +57,7 @@ class Sap final : public Solver {
       // Far from the end a proximal step need not be exact.
       const bool solved = decrement <= std::max(1e-2 * proximal_energy(), least_energy_);
       if (!solved && ++newtons < most_newtons) continue;
-      // What is left is the relaxation: Coulomb's law is not reached by going on.
+      // Done where the relaxation is solved: going on does not reach Coulomb's law.
       done = no_shift_.convex_error(w_, gamma_, true_u_) <= 0.5 * budget.aim();
       centre_ = gamma_;
       newtons = 0;
@@ -75,7 +75,7 @@ class Sap final : public Solver {
     return w_.at(centre_, c) - u / epsilon(c);
   }
 
-  /// The energy that is minimised has W for its kinetic part.
+  /// The minimised energy has W for its kinetic part, so W must be symmetric.
   static void require_symmetric(const SparseRows& w) {
     const SparseRows transposed = w.transpose();
     if ((w - transposed).norm() > 1e-9 * w.norm())
@@ -83,7 +83,7 @@ class Sap final : public Solver {
           "sap: the stored W is not symmetric: there is no energy to minimise");
   }
 
-  /// u and gamma at the bodies' velocities v_; of a stored W, v_ = v_free + M^-1 H^T lambda_.
+  /// Computes u and gamma at velocities v_; for a stored W, v_ is v_free + M^-1 H^T lambda_.
   void place(const FrictionProblem& problem) {
     if (is_stored_)
       w_.velocity(lambda_, u_);
@@ -96,8 +96,8 @@ class Sap final : public Solver {
                                : Eigen::Vector3d::Zero());
   }
 
-  /// One step in v_, and what follows from it. Returns -gradient.dv [J], twice what the model
-  /// promised to gain; not finite: the factorisation failed.
+  /// One step in v_, with u and gamma after it. Returns -gradient.dv [J], twice the gain that the
+  /// model promised; not finite: the factorisation failed.
   double newton(const FrictionProblem& problem) {
     // The energy's second derivative is M + H^T (P_K' / epsilon) H: contacts are springs of
     // stiffness 1 / epsilon, which the projection's derivative turns, weakens or switches off.
@@ -140,8 +140,8 @@ class Sap final : public Solver {
     return decrement;
   }
 
-  /// The minimum of the convex energy along dv: its slope is bracketed, and found by secants kept
-  /// inside the bracket (Illinois). `slope` and `curvature` of the kinetic part.
+  /// Minimises the convex energy along dv: brackets the zero of its slope, and finds it by secants
+  /// kept inside the bracket (Illinois). `slope` and `curvature` are those of the kinetic part.
   double line_search(double slope, double curvature) const {
     // |P_K(z)|^2 / 2 has the gradient P_K(z), so that a contact's epsilon |gamma|^2 / 2 with z = r
     // - u / epsilon changes by -gamma.du.
@@ -164,7 +164,7 @@ class Sap final : public Solver {
       at_high = derivative(high);
     }
     if (std::abs(at_high) <= enough || at_high < 0.0) return high;
-    // Secants; where one end stays twice its slope is halved (Illinois).
+    // Secants; an end that stays twice has its slope halved (Illinois).
     int last_side = 0;
     for (int k = 0; k < 60 && at_low < 0.0; ++k) {
       const double t = (low * at_high - high * at_low) / (at_high - at_low), at_t = derivative(t);
@@ -184,7 +184,7 @@ class Sap final : public Solver {
     return low > 0.0 ? low : high;
   }
 
-  /// sum epsilon |gamma - centre|^2 [J]: what the proximal step moves.
+  /// sum epsilon |gamma - centre|^2 [J]: how far the proximal step moves, as an energy.
   double proximal_energy() const {
     double sum = 0.0;
     for (int c = 0; c < w_.contact_count(); ++c)

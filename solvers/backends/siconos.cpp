@@ -22,13 +22,13 @@ namespace {
 
 struct SiconosRecipe {
   int solver;
-  double contact_visits;  ///< iterations x contacts of the first round; a next one has twice them
+  double contact_visits;  ///< iterations x contacts of the first round; the next has twice as many
   void (*adjust)(SolverOptions&);
   bool factorises = true;  ///< wants W by columns
   /// Contacts up to which W is dense: there LAPACK is up to 90 times faster than sparse columns.
   int most_dense = 60;
-  /// Iterations with a dense W, after which it goes on by columns: LAPACK's LU of a singular matrix
-  /// may lead a Newton method astray where the sparse LU brings it home.
+  /// Iterations with a dense W, after which the solver goes on by columns: LAPACK's LU of a
+  /// singular matrix may lead a Newton method astray where it converges with the sparse LU.
   int most_dense_iterations = std::numeric_limits<int>::max();
 };
 
@@ -55,7 +55,7 @@ class BlockProblem {
   }
 
   /// Siconos' own structures over our storage, each made once. Nothing is ever freed: only
-  /// processes that soon end come here.
+  /// processes that soon end make them.
   FrictionContactProblem* siconos(bool is_dense) {
     FrictionContactProblem*& made = is_dense ? dense_problem_ : by_blocks_;
     if (made) return made;
@@ -129,7 +129,7 @@ class Siconos final : public Solver {
  public:
   explicit Siconos(const SiconosRecipe& recipe) : recipe_(recipe) {}
 
-  /// W in the library's form is start-up, as in a program of Siconos' own: it waits for solve().
+  /// Converting W is start-up, as in a program of Siconos' own, and is left to solve().
   void prepare(const FrictionProblem&) override { is_taken_ = false; }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
@@ -155,7 +155,7 @@ class Siconos final : public Solver {
           };
           const bool whole = answer_apart(request.left, run, answer);
           answer.finished = !whole || answer.iterations < limit;
-          // What dense steps have not brought home goes on by columns.
+          // A problem that dense steps have not solved goes on by columns.
           if (is_dense_ && limit == recipe_.most_dense_iterations)
             is_dense_ = false;
           else if (!answer.finished)
@@ -170,7 +170,7 @@ class Siconos final : public Solver {
  private:
   /// Siconos' error is a norm over contacts divided by max(|q|, |r|, |u|).
   double first_tolerance(const Budget& budget) const {
-    // Below the hair that reached() asks for: an answer within it would cost a whole round more.
+    // Slightly below the margin of reached(): an answer within that would cost a whole round more.
     if (budget.fclib) return budget.fclib->tolerance() * (1.0 - 2.0 * stop_margin);
     const double contacts = std::max(1.0, static_cast<double>(blocks_.contacts()));
     const double q = blocks_.q().norm();
@@ -178,7 +178,7 @@ class Siconos final : public Solver {
     return budget.tolerance * std::sqrt(contacts) / (q > 0.0 ? q : 1.0);
   }
 
-  /// Iterations of the first round: some seconds' worth, so that the clock is looked at.
+  /// Iterations of the first round: some seconds' worth, so that the clock is checked.
   int first_chunk() const {
     const double visits = recipe_.contact_visits / std::max(1, blocks_.contacts());
     return static_cast<int>(std::clamp(visits, 100.0, 1e6));
@@ -217,10 +217,10 @@ void use_hybrid_newton(SolverOptions& options) {
       SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_NSN_AND_PLI_NSN_LOOP;
 }
 
-/// By SiconosMethod.
+/// Indexed by SiconosMethod.
 const SiconosRecipe recipes[] = {
     {SICONOS_FRICTION_3D_NSGS, 2e6, use_hybrid_newton, false},
-    // Siconos' own measure of a sweep is what it moved: it goes on long after the error is small.
+    // Siconos measures a sweep by its change: with that it goes on long after the error is small.
     {SICONOS_FRICTION_3D_NSGS, 2e6,
      [](SolverOptions& options) {
        use_hybrid_newton(options);

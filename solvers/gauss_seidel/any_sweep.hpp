@@ -1,7 +1,7 @@
 #pragma once
-// The sweep that fits a problem. A stored W is swept along its rows; otherwise contacts push
-// bodies, bodies carry the motion to other contacts, and W is never formed: in groups of contacts
-// side by side, or contact after contact.
+// Chooses the sweep that fits a problem. DelassusSweep sweeps a stored W along its rows. The sweeps
+// over bodies never form W: contacts push bodies, and bodies carry the motion to other contacts.
+// WideSweep solves groups of contacts side by side, ScalarSweep contact after contact.
 
 #include "solvers/gauss_seidel/delassus_sweep.hpp"
 #include "solvers/gauss_seidel/scalar_sweep.hpp"
@@ -12,16 +12,16 @@ namespace ballast {
 
 class AnySweep {
  public:
-  /// Whose members share a sweep from now on; null: the caller alone. The same bits whatever their
-  /// number.
+  /// Sets the team whose members share a sweep; null: the caller alone. The results have the same
+  /// bits whatever the number of members.
   void use_team(WorkerTeam* team) {
     plan_.use_team(team);
     scalar_.use_team(team);
     wide_.use_team(team);
   }
 
-  /// Chooses, and makes everything that does not depend on the impulses: records, masses, 1/rho. A
-  /// problem that has both forms is swept over its bodies.
+  /// Chooses the sweep and makes everything that does not depend on the impulses: records, masses,
+  /// 1/rho. A problem that has both forms is swept over its bodies.
   void prepare(const FrictionProblem& problem) {
     if (!problem.has_dynamics) {
       stored_.prepare(problem);

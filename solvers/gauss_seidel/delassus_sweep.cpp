@@ -13,11 +13,11 @@ namespace {
 using Contact = DelassusSweep::Contact;
 using BlockRows = DelassusSweep::BlockRows;
 
-/// Three numbers side by side; the fourth says nothing.
+/// Three numbers side by side; the fourth is unused.
 using Column = double __attribute__((vector_size(32)));
 
-/// u_c = W_c r + q_c, in the given tangents: a row of 3 x 3 blocks times the impulses. The columns
-/// of blocks are summed apart: an addition need not wait for the one before.
+/// Returns u_c = W_c r + q_c in the given tangents: a row of 3 x 3 blocks times the impulses. The
+/// three columns of blocks have separate sums, so that additions need not wait for each other.
 BALLAST_INLINE Column velocity(const BlockRows& w, const Contact& contact, const double* r) {
   Column sums[3] = {{contact.q[0], contact.q[1], contact.q[2], 0.0}, {}, {}};
   for (int k = contact.begin; k < contact.end; ++k) {
@@ -32,7 +32,7 @@ BALLAST_INLINE Column velocity(const BlockRows& w, const Contact& contact, const
   return sums[0] + (sums[1] + sums[2]);
 }
 
-/// Each contact already sees the impulses that those before it have just been given.
+/// Solves the contacts in turn. Each one sees the new impulses of those before it.
 BALLAST_FOR_EACH_CPU
 void sweep_rows(const BlockRows& w, Contact* contacts, int count, double* r) {
   for (int c = 0; c < count; ++c) {
@@ -42,7 +42,7 @@ void sweep_rows(const BlockRows& w, Contact* contacts, int count, double* r) {
   }
 }
 
-/// The velocities of so many contacts from `first` on, four numbers each.
+/// Writes the velocities of `count` contacts from `first` on to `u`, four numbers each.
 BALLAST_FOR_EACH_CPU
 void find_velocities(const BlockRows& w, const Contact* first, int count, const double* r,
                      double* u) {
@@ -56,7 +56,7 @@ void find_velocities(const BlockRows& w, const Contact* first, int count, const 
 
 void DelassusSweep::prepare(const FrictionProblem& problem) {
   const int contacts = problem.contact_count(), rows = problem.row_count();
-  // The contact of each row, and of each contact its place in the block row at hand.
+  // The contact of each row; and for each contact the last block that was made for its column.
   std::vector<int> scratch(rows + contacts, -1);
   int *contact_of_row = scratch.data(), *slot = contact_of_row + rows;
   for (int c = 0; c < contacts; ++c)
@@ -76,7 +76,7 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
     if (!append_whole_blocks(problem, c, contact_of_row))
       append_entries(problem, c, contact_of_row, slot);
     contact.end = static_cast<int>(block_contact_.size());
-    // Its own block, in the coordinates in which it is solved.
+    // The contact's own block W_cc, in the coordinates in which the contact is solved.
     Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
     for (int k = contact.begin; k < contact.end; ++k)
       if (block_contact_[k] == c) own = Eigen::Matrix3d(blocks_.data() + 9 * k);
@@ -86,11 +86,11 @@ void DelassusSweep::prepare(const FrictionProblem& problem) {
     for (int i = 0; i < problem.contact_rows(c); ++i)
       contact.q[i] = problem.delassus.q[problem.row_begin[c] + i];
   }
-  blocks_.push_back(0.0);  // a column of four is read where the last one has three
+  blocks_.push_back(0.0);  // velocity() reads four numbers where the last column has three
 }
 
-/// The blocks of contact c where its three rows have entries in the same columns, of whole contacts
-/// with three rows: as files mostly have it. False: nothing was appended.
+/// Appends the blocks of contact c if its three rows have entries in the same columns, all columns
+/// of contacts with three rows each, as in most files. False: nothing was appended.
 bool DelassusSweep::append_whole_blocks(const FrictionProblem& problem, int c,
                                         const int* contact_of_row) {
   const SparseRows& w = problem.delassus.w;
@@ -119,8 +119,8 @@ bool DelassusSweep::append_whole_blocks(const FrictionProblem& problem, int c,
   return true;
 }
 
-/// The blocks of contact c, entry by entry, in the order of their first ones. `slot`: less than the
-/// number of blocks.
+/// Appends the blocks of contact c, entry by entry, in the order of their first entries. `slot`:
+/// the last block in each contact's column, below the number of blocks.
 void DelassusSweep::append_entries(const FrictionProblem& problem, int c, const int* contact_of_row,
                                    int* slot) {
   const int begin = static_cast<int>(block_contact_.size());
@@ -139,7 +139,7 @@ void DelassusSweep::append_entries(const FrictionProblem& problem, int c, const 
 
 void DelassusSweep::load(const FrictionProblem& problem, const Impulses& r) {
   for (int c = 0; c < problem.contact_count(); ++c) {
-    // An impulse that moves nothing would stay as it was given.
+    // A sweep could keep the given impulse of a contact that nothing moves along its normal.
     const double weight = contacts_[c].local.inverse_normal > 0.0 ? 1.0 : 0.0;
     for (int i = 0; i < problem.contact_rows(c); ++i)
       r_[3 * c + i] = weight * r[problem.row_begin[c] + i];

@@ -2,8 +2,8 @@
 // One Gauss-Seidel sweep on the Delassus form: u_c = sum_j W_cj r_j + q_c by 3 x 3 blocks in rows
 // (block CSR).
 //
-// The contact at hand is solved with the symmetric part of W_cc from the velocity that the whole of
-// W gives: where W_cc is not symmetric this is another splitting of W, with the same fixed points.
+// Contact c is solved with the symmetric part of W_cc and the velocity that the whole of W gives.
+// Where W_cc is not symmetric this is another splitting of W, with the same fixed points.
 
 #include <vector>
 
@@ -20,7 +20,7 @@ class DelassusSweep final : public ContactSweep {
 
   void load(const FrictionProblem& problem, const Impulses& r) override;
   void store(const FrictionProblem& problem, Impulses& r) const override;
-  /// In the given order.
+  /// Solves the contacts in the order of the problem.
   void sweep() override;
   void start_search() override;
   double sweep_along(SearchStep step) override;
@@ -32,7 +32,7 @@ class DelassusSweep final : public ContactSweep {
     double lambda_max = 0.0;
     double slip = 0.0;       ///< the last slip root
     double q[3]{};           ///< in the given tangents
-    int begin = 0, end = 0;  ///< its blocks
+    int begin = 0, end = 0;  ///< its row of blocks is begin .. end - 1
   };
   /// W by rows of blocks, and the contact of each block's column.
   struct BlockRows {
@@ -45,12 +45,12 @@ class DelassusSweep final : public ContactSweep {
   void append_entries(const FrictionProblem& problem, int c, const int* contact_of_row, int* slot);
   BlockRows rows() const { return {blocks_.data(), block_contact_.data()}; }
 
-  std::vector<int> block_contact_;  ///< of the contacts one after the other
-  /// 3 x 3, column-major; one-row contacts are padded with zeros. One number more at the end.
+  std::vector<int> block_contact_;  ///< the contact of each block's column
+  /// 3 x 3, column-major; one-row contacts are padded with zeros. One more zero follows the last.
   std::vector<double> blocks_;
   std::vector<Contact> contacts_;
   Eigen::VectorXd r_;                   ///< three per contact
-  Eigen::VectorXd before_, direction_;  ///< of a search: where the last sweep began
+  Eigen::VectorXd before_, direction_;  ///< search: iterate before the last sweep, direction
 };
 
 }  // namespace ballast

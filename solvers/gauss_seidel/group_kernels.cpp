@@ -13,8 +13,8 @@ const std::vector<const GroupKernels*>& all_group_kernels() {
   static const std::vector<const GroupKernels*> found = [] {
     std::vector<const GroupKernels*> kernels;
 #if defined(__x86_64__)
-    // The widest first. All do the same operations on the same numbers:
-    // the choice shows in time only.
+    // The widest first. All do the same operations on the same numbers, so that the choice affects
+    // the time only.
     if (__builtin_cpu_supports("avx512f")) kernels.push_back(&avx512_group_kernels);
     if (__builtin_cpu_supports("avx2")) kernels.push_back(&avx2_group_kernels);
 #endif

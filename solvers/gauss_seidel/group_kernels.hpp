@@ -1,32 +1,32 @@
 #pragma once
-// What the wide sweep keeps of contacts and bodies, in the order in which it is read, and its inner
-// loops for each instruction set. All give the same bits.
+// The records of contacts and bodies that the wide sweep reads, in the order in which it reads
+// them, and its inner loops for each instruction set. All instruction sets give the same bits.
 //
-// A group has sixteen contacts of which no two share a body. The same number of all its contacts
-// stands side by side, one in each lane:
+// A group has sixteen contacts of which no two share a body. Each number of a contact's record is
+// stored for all contacts of the group side by side, one contact in each lane:
 //
 //   line[0][0] | c0 c1 c2 ... c15 |    first number of the normal row's linear part
 //   line[0][1] | c0 c1 c2 ... c15 |    ...
 //
-// so that one load takes it for as many contacts as a register holds.
+// so that one load reads it for as many contacts as a register holds.
 //
-// Bodies keep (v, L_r^T omega, 0, 0) with M = diag(m, m, m, L_r L_r^T): v in m/s as it is, because
-// the two sides of a contact see it with opposite signs and a contact needs only the difference.
+// Bodies keep (v, L_r^T omega, 0, 0) with M = diag(m, m, m, L_r L_r^T). v stays unscaled [m/s]: the
+// two sides of a contact see it with opposite signs, so a contact needs only the difference.
 //
 // Contacts are in the coordinates of PrincipalContact, scaled so that W_NN = 1 and S = diag(1, s2):
 //   N' = N / n,  T' = (T - c N) / t,  y' = n y,  r_T' = t r_T,   n = sqrt(W_NN), t = sqrt(s1)
 //   mu' = mu t / n,  c' = c n / t,  s2' = s2 / s1
-// The impulse that stops a contact is then its impulse minus its velocity, and Coulomb's law keeps
-// its form.
+// In these coordinates the impulse that stops a contact is its present impulse minus its velocity,
+// and Coulomb's law keeps its form.
 
 #include <vector>
 
-// Sources for several instruction sets include this: nothing that would be emitted for each.
+// Sources for several instruction sets include this: no function here may be emitted for each.
 namespace ballast {
 
 constexpr int group_lanes = 16;
 
-/// A lane that holds no contact has zero rows, leans on a velocity that stays zero, and is open.
+/// A lane without a contact has zero rows, refers to a velocity that stays zero, and is open.
 template <typename Number_, int Rows>
 struct alignas(64) RowGroup {
   using Number = Number_;
@@ -35,7 +35,7 @@ struct alignas(64) RowGroup {
   Number turn[2][Rows][3][group_lanes];  ///< angular part of the rows, for a and for b
   Number inverse_mass[2][group_lanes];   ///< of a and b; 0: does not move
   Number bias[Rows][group_lanes];
-  int body[2][group_lanes];  ///< a and b: distance of the row of their velocity, in bytes
+  int body[2][group_lanes];  ///< a and b: byte offset of their row of velocities
 };
 
 template <typename Number>
@@ -47,15 +47,15 @@ struct FrictionGroup : RowGroup<Number, 3> {
 template <typename Number>
 struct OneRowGroup : RowGroup<Number, 1> {};
 
-/// Contacts of grains with one and the same body that has one unknown, the driven wall. Its side
-/// is a number a contact, and the lanes see its velocity one after the other.
+/// Contacts of grains with one driven wall, a body with one unknown. The wall's side is one number
+/// for each contact. The lanes see the wall's velocity one after the other.
 template <typename Number>
 struct WallGroup : RowGroup<Number, 1> {
   Number wall[group_lanes];  ///< the row's entry for the wall's unknown L^T v
-  int wall_body;             ///< distance of its velocity in bytes
+  int wall_body;             ///< byte offset of the wall's velocity
 };
 
-/// One thing for each kind of group.
+/// One member for each kind of group.
 template <template <typename> class Of, typename Number>
 struct Kinds {
   Of<FrictionGroup<Number>> friction;
@@ -70,25 +70,25 @@ struct alignas(64) GroupImpulses {
   Number miss[group_lanes];  ///< by how much the closed form missed the last slip root (friction)
 };
 
-/// The velocities u' of a group's contacts at a look.
+/// The velocities u' of a group's contacts when the error was evaluated.
 template <int Rows>
 struct alignas(64) GroupVelocities {
   float u[Rows][group_lanes];
 };
 
-/// Of a search that combines sweeps: what the last sweep changed, and the direction.
+/// A search that combines sweeps: the impulse changes of the last sweep, and the direction.
 template <typename Number, int Rows>
 struct alignas(64) GroupSearch {
   Number change[Rows][group_lanes], direction[Rows][group_lanes];
 };
 
-/// From a group's coordinates to those of the problem. One-row contacts have no tangents.
+/// Leads from a group's coordinates to those of the problem. One-row contacts have no tangents.
 struct alignas(64) GroupFrame {
   double normal[group_lanes], inverse_normal[group_lanes];    ///< n [kg^-1/2], 1/n
   double tangent[group_lanes], inverse_tangent[group_lanes];  ///< t, 1/t
   double cosine[group_lanes], sine[group_lanes];              ///< of the turn to principal tangents
   double mu[group_lanes];
-  double lambda_max[group_lanes];  ///< of W_cc [1/kg]; 0: no contact in this lane
+  double lambda_max[group_lanes];  ///< of W_cc [1/kg]; 0: no contact, or an immovable one
   int contact[group_lanes];        ///< its number in the problem; -1: none
 };
 
@@ -97,13 +97,13 @@ struct alignas(8 * sizeof(Number)) BodyRow {
   Number w[8];
 };
 
-/// The step of a search that combines sweeps. With x the iterate that the last sweep left, `before`
-/// the one that it began from and d = x - before: the iterate moves by m = beta p + ahead d. Then
+/// The step of a search that combines sweeps. x is the iterate after the last sweep, `before` the
+/// one that it started from, and d = x - before. The iterate moves by m = beta p + ahead d. Then
 /// p := m + gain d, x += m, before := x.
 struct SearchStep {
   double beta = 0.0, gain = 0.0, ahead = 0.0;
 
-  /// Moves numbers `x` that the last sweep changed by `change`. `direction`: their p.
+  /// Moves the numbers `x`, which the last sweep changed by `change`. `direction`: their p.
   template <typename Numbers>
   [[gnu::always_inline]] void move(const Numbers& change, Numbers& direction, Numbers& x) const {
     const Numbers along = beta * direction + ahead * change;
@@ -118,9 +118,9 @@ struct GroupRun {
   const Group* groups;
   GroupImpulses<typename Group::Number, Group::rows>* impulses;
   GroupSearch<typename Group::Number, Group::rows>* search;
-  const int* awake;     ///< those that are swept, ascending; null: the first `count`
-  int count;            ///< of those that are swept
-  bool is_far = false;  ///< not in a core's cache: a group is fetched while that before it is swept
+  const int* awake;     ///< the groups to sweep, ascending; null: the first `count`
+  int count;            ///< number of groups to sweep
+  bool is_far = false;  ///< not in a core's cache: each group is fetched one group ahead
 
   int group(int i) const { return awake ? awake[i] : i; }
 };
@@ -134,31 +134,31 @@ struct GroupLoops {
   using Body = BodyRow<Number>;
   using Run = GroupRun<Group>;
 
-  /// Every contact once. The two runs share no body; they may be swept side by side, which hides
-  /// one's divisions behind the other's and leaves the same bits. With a `step` each impulse first
-  /// takes it, as the bodies must have before; and `squares` is the sum over each run's contacts of
-  /// |change|^2.
+  /// Solves every contact once. The two runs share no body; they may be swept side by side, which
+  /// hides one's divisions behind the other's and gives the same bits. With a `step` each impulse
+  /// first takes the step (the caller has moved the bodies by it), and `squares` receives each
+  /// run's sum of |change|^2 over its contacts.
   void (*sweep)(const Run (&runs)[2], const SearchStep* step, Body* bodies, double (&squares)[2]);
-  /// All impulses push their bodies once.
+  /// Applies all impulses once to their bodies.
   void (*push)(const Group* groups, const Impulses* impulses, int count, Body* bodies);
   /// The sum over contacts of the judge's scaled natural map squared [m^2/s^2]. `out` may be null.
   double (*error)(const Group* groups, const Impulses* impulses, const GroupFrame* frames,
                   int count, const Body* bodies, GroupVelocities<Group::rows>* out);
 };
 
-/// What is done in double alone.
+/// The loops over groups in double, with one that exists in double only.
 template <typename Group>
 struct ExactLoops : GroupLoops<Group> {
-  /// From rows and bias as given, and mu in the frames, to the group's coordinates.
+  /// Turns rows and bias as given, and mu in the frames, into the group's coordinates.
   void (*make_principal)(Group* groups, GroupFrame* frames, int count);
 };
 
-/// `count` bodies that follow each other take the step of the search.
+/// Moves `count` consecutive bodies by the step of the search.
 template <typename Number>
 using MoveBodies = void (*)(int count, SearchStep step, BodyRow<Number>* w, BodyRow<Number>* before,
                             BodyRow<Number>* direction);
 
-/// All loops of one kind of numbers.
+/// All loops for one number type.
 template <template <typename> class Loops, typename Number>
 struct KernelsOf : Kinds<Loops, Number> {
   MoveBodies<Number> move_bodies;
@@ -170,14 +170,14 @@ struct GroupKernels {
   KernelsOf<GroupLoops, float> single;
 };
 
-/// Of the best instruction set that this processor has.
+/// The kernels of the best instruction set that this processor has.
 const GroupKernels& group_kernels();
-/// Of all that it has, the best first.
+/// The kernels of all instruction sets that this processor has, the best first.
 const std::vector<const GroupKernels*>& all_group_kernels();
 
-/// The slip root of one contact in a group's coordinates: x = 1 + lambda from the stick solution
-/// (y, t1, t2) outside the cone; 0: no tangential impulse. With a proven bracket, for the few
-/// contacts that two Newton steps do not serve.
+/// Returns the slip root x = 1 + lambda of one contact in a group's coordinates from the stick
+/// solution (y, t1, t2) outside the cone; 0: no tangential impulse. Uses a proven bracket, for the
+/// few contacts whose root two Newton steps do not reach.
 double slip_root(double s2, double c1, double c2, double mu, double y, double t1, double t2);
 
 }  // namespace ballast

@@ -1,12 +1,12 @@
 #pragma once
-// The table of one instruction set, and the loops of group_kernels.hpp that are needed in double
-// alone: records, and the judge's error. Included by the sources group_kernels_*.cpp alone.
+// The table of kernels of one instruction set, and the loops of group_kernels.hpp that make records
+// and the judge's error. Only the sources group_kernels_*.cpp include this.
 
 #include "solvers/gauss_seidel/group_sweep.hpp"
 
 namespace ballast {
 
-/// W_cc's entry (i, j) from the rows as given.
+/// Returns entry (i, j) of W_cc, computed from the rows as given.
 template <typename V, typename Group>
 BALLAST_INLINE V block_entry(const Group& k, int lane, int i, int j) {
   const auto product = [lane](const auto& x, const auto& y) __attribute__((always_inline)) {
@@ -19,7 +19,7 @@ BALLAST_INLINE V block_entry(const Group& k, int lane, int i, int j) {
          (product(k.turn[0][i], k.turn[0][j]) + product(k.turn[1][i], k.turn[1][j]));
 }
 
-/// 1 / x; 1 where x is not positive (no contact there: zero rows stay zero).
+/// Returns 1 / x; 1 where x is not positive (a lane without a contact: its zero rows stay zero).
 template <typename V>
 BALLAST_INLINE V inverse_or_one(V x) {
   const V one = V::all(1.0);
@@ -31,7 +31,7 @@ BALLAST_INLINE void times(double* numbers, V factor) {
   (V::load(numbers) * factor).store(numbers);
 }
 
-/// The largest eigenvalue of symmetric 3 x 3 blocks, as largest_eigenvalue() finds it.
+/// Returns the largest eigenvalue of symmetric 3 x 3 blocks, as largest_eigenvalue() finds it.
 template <typename V>
 BALLAST_INLINE V largest_eigenvalue_lanes(V nn, V tn, V sn, V tt, V st, V ss) {
   const V zero = V::all(0.0), one = V::all(1.0);
@@ -46,14 +46,14 @@ BALLAST_INLINE V largest_eigenvalue_lanes(V nn, V tn, V sn, V tt, V st, V ss) {
   V w = V::all(0.57729) + s * (V::all(-0.10927) + s * (V::all(0.04318) - 0.01123 * s));
   for (int step = 0; step < 2; ++step)
     w = w - (w * w * (V::all(3.0) + 2.0 * s * w) - one) / (6.0 * w * (one + s * w));
-  // A diagonal block, or nearly one: the fractions above are 0 / 0 where its entries are equal.
+  // A (nearly) diagonal block needs its own case: with equal entries the fractions above are 0 / 0.
   const V two = select(less(nn, tt), tt, nn), three = select(less(two, ss), ss, two);
   const auto turned =
       static_cast<typename V::Mask>(less(zero, off) & differs(square * spread, zero));
   return select(turned, mean + spread * (one + 2.0 * s * w), three);
 }
 
-/// See make_principal in solvers/parts/one_contact.cpp.
+/// make_principal() of solvers/parts/one_contact.cpp for the lanes of a register.
 template <typename V>
 BALLAST_INLINE void make_principal_lanes(FrictionGroup<double>& k, GroupFrame& f, int lane) {
   const V zero = V::all(0.0), one = V::all(1.0), half = V::all(0.5), rounding = V::all(0x1p-52);
@@ -62,7 +62,7 @@ BALLAST_INLINE void make_principal_lanes(FrictionGroup<double>& k, GroupFrame& f
           w21 = block_entry<V>(k, lane, 2, 1), w22 = block_entry<V>(k, lane, 2, 2);
   const V inverse = inverse_or_one(w00), given_c1 = w10 * inverse, given_c2 = w20 * inverse;
   const V p = w11 - given_c1 * w10, q = w21 - given_c1 * w20, r = w22 - given_c2 * w20;
-  // The eigenvectors of S, by whichever form does not cancel.
+  // The eigenvectors of S, by the form that does not cancel.
   const V middle = half * (p + r), delta = half * (p - r), h = square_root(delta * delta + q * q);
   const auto turned = less(zero, h), second = less(delta, zero);
   const V inverse_h = inverse_or_one(h), size = select(second, zero - delta, delta);
@@ -76,7 +76,7 @@ BALLAST_INLINE void make_principal_lanes(FrictionGroup<double>& k, GroupFrame& f
 
   // A lane without a contact: n = t = s2 = 1.
   const auto there = less(zero, w00);
-  // Told apart: contacts that nothing moves along the normal, up to rounding (wide_sweep.cpp).
+  // 0 tells make_group() that nothing moves the contact along its normal, up to rounding.
   keep(less(V::all(0.25) * rounding * trace, w00),
        largest_eigenvalue_lanes(w00, w10, w20, w11, w21, w22))
       .store(f.lambda_max + lane);
@@ -97,7 +97,7 @@ BALLAST_INLINE void make_principal_lanes(FrictionGroup<double>& k, GroupFrame& f
   scaled_mu.store(k.mu + lane);
   inverse_or_one(scaled_mu).store(k.inverse_mu + lane);
 
-  // Normal row over n; tangents turned, c times the normal row taken off, over t.
+  // The normal row over n; the tangent rows turned, minus c times the normal row, over t.
   const auto change = [&](double* normal, double* first, double* second_row)
       __attribute__((always_inline)) {
     const V x = V::load(normal), y = V::load(first), z = V::load(second_row);
@@ -112,7 +112,7 @@ BALLAST_INLINE void make_principal_lanes(FrictionGroup<double>& k, GroupFrame& f
   }
 }
 
-/// One row: W_cc is a number.
+/// The same for one-row contacts, where W_cc is a number.
 template <typename V, typename Group>
 BALLAST_INLINE void make_principal_lanes(Group& k, GroupFrame& f, int lane) {
   V w = block_entry<V>(k, lane, 0, 0);
@@ -140,8 +140,8 @@ void make_principal_loop(Group* groups, GroupFrame* frames, int count) {
       make_principal_lanes<V>(groups[g], frames[g], lane);
 }
 
-/// The judge's scaled natural map |r - P_K(r - rho (u + mu |u_T| n))| / rho, squared (see
-/// problems/algebra/friction_cone.hpp).
+/// Returns the square of the judge's scaled natural map |r - P_K(r - rho (u + mu |u_T| n))| / rho
+/// (see problems/algebra/friction_cone.hpp).
 template <typename V>
 BALLAST_INLINE V natural_map_square(const FrictionGroup<typename V::Number>& k, const GroupFrame& f,
                                     int lane, const V* r, const V* moved) {
@@ -169,7 +169,7 @@ BALLAST_INLINE V natural_map_square(const FrictionGroup<typename V::Number>& k, 
   return (en * en + e1 * e1 + e2 * e2) * (lambda * lambda);
 }
 
-/// One row: n |y' - max(0, y' - u')|.
+/// The same for one-row contacts: the square of n |y' - max(0, y' - u')|.
 template <typename V, typename Group>
 requires(Group::rows == 1) BALLAST_INLINE V
     natural_map_square(const Group&, const GroupFrame& f, int lane, const V* r, const V* moved) {
@@ -179,7 +179,7 @@ requires(Group::rows == 1) BALLAST_INLINE V
   return select(less(V::all(0.0), V::load(f.lambda_max + lane)), e * e, V::all(0.0));
 }
 
-/// The contacts' velocities, a wall's part included.
+/// Computes the contacts' velocities, including a wall's part.
 template <typename V, typename Group>
 BALLAST_INLINE void contact_velocities(const Group& k, int lane,
                                        const BodyRow<typename V::Number>* bodies, V* moved) {
@@ -224,7 +224,7 @@ constexpr GroupLoops<Group> loops{sweep_loop<V, K, Group>, push_loop<V, Group>,
 template <typename V, int K, typename Group>
 constexpr ExactLoops<Group> exact_loops{loops<V, K, Group>, make_principal_loop<V, Group>};
 
-/// With registers of so many bytes; so many vectors of doubles, of singles are solved side by side.
+/// The kernels for registers of `Bytes` bytes that solve so many vectors of each type side by side.
 template <int Bytes, int DoubleVectors, int SingleVectors>
 constexpr GroupKernels kernels_of(const char* instruction_set) {
   using D = Lanes<double, Bytes>;

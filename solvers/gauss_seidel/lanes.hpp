@@ -1,10 +1,10 @@
 #pragma once
 // Lanes of numbers: one vector register, and the operations on it that the sweep's loops need.
 //
-// Only + - * / square root and comparisons, lane by lane: every instruction set gives the same
-// bits (-ffp-contract=off keeps multiplications and additions apart). Registers of 16 bytes are the
-// compiler's own vectors, for SSE2 and any other processor; those of 32 need AVX2, those of 64
-// AVX-512.
+// The arithmetic is + - * / square root and comparisons, lane by lane, so that every instruction
+// set gives the same bits (-ffp-contract=off keeps multiplications and additions apart). Registers
+// of 16 bytes are the compiler's own vectors, for SSE2 and any other processor; those of 32 bytes
+// need AVX2, those of 64 bytes AVX-512.
 
 #include <utility>
 
@@ -12,15 +12,15 @@
 #include <immintrin.h>
 #endif
 
-// Vectors are returned by inlined functions only, so GCC's note about their calling convention does
-// not apply. GCC 12's own intrinsics name an undefined register where a mask keeps nothing of it
-// (GCC bug 105593).
+// Only inlined functions return vectors, so GCC's note about their calling convention does not
+// apply. GCC 12's own intrinsics use an undefined register where a mask keeps nothing of it (GCC
+// bug 105593).
 #pragma GCC diagnostic ignored "-Wpsabi"
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 
-/// Inlined for certain. No function below is emitted on its own, so that the linker never has to
-/// choose between versions for different instruction sets.
+/// Forces inlining. No function below is emitted on its own, so that the linker never has to choose
+/// between versions for different instruction sets.
 #define BALLAST_INLINE inline __attribute__((always_inline))
 
 namespace ballast {
@@ -32,7 +32,7 @@ struct RegisterOf {
 template <typename Number, int Bytes>
 using Register = typename RegisterOf<Number, Bytes>::type;
 
-/// What a comparison of vectors gives: all bits of a lane, or none. AVX-512 has one bit a lane.
+/// The result of comparing vectors: all bits of a lane or none; with AVX-512 one bit for each lane.
 template <typename Number, int Bytes>
 struct MaskOf {
   using type = decltype(Register<Number, Bytes>{} < Register<Number, Bytes>{});
@@ -59,9 +59,9 @@ struct Lanes {
 
   Raw x;
 
-  /// From aligned memory.
+  /// Loads from aligned memory.
   static BALLAST_INLINE Lanes load(const Number* p) { return {*reinterpret_cast<const Raw*>(p)}; }
-  /// The same numbers rounded.
+  /// Loads doubles and rounds them to singles.
   static BALLAST_INLINE Lanes load(const double* p) requires(!is_double) {
     return join(rounded(p), rounded(p + width / 2), std::make_integer_sequence<int, width>{});
   }
@@ -109,7 +109,7 @@ template <typename V>
 BALLAST_INLINE typename V::Mask differs(V a, V b) {
   return a.x != b.x;
 }
-/// `value` where the mask is set, elsewhere zero.
+/// Returns `value` where the mask is set, zero elsewhere.
 template <typename V>
 BALLAST_INLINE V keep(typename V::Mask mask, V value) {
   return {(typename V::Raw)(mask & (typename V::Mask)value.x)};
@@ -189,7 +189,7 @@ BALLAST_INLINE bool any(__mmask8 mask) { return mask != 0; }
 BALLAST_INLINE bool any(__mmask16 mask) { return mask != 0; }
 #endif
 
-/// A row of a body, named by its distance in bytes: no shifts in the loop.
+/// The row of a body at `offset` bytes from `base`: byte offsets save the loop its shifts.
 BALLAST_INLINE const char* at_offset(const void* base, int offset) {
   return static_cast<const char*>(base) + static_cast<unsigned>(offset);
 }
@@ -197,13 +197,13 @@ BALLAST_INLINE char* at_offset(void* base, int offset) {
   return static_cast<char*>(base) + static_cast<unsigned>(offset);
 }
 
-// The bodies of several contacts, from rows to lanes and back, in the pieces in which they will be
-// loaded again: sixteen bytes, or what the instruction set has for whole rows. (A load larger than
-// the store before it waits until that has reached the cache.)
+// The functions below move the bodies of several contacts from rows to lanes and back. They load
+// and store pieces of one size: sixteen bytes, or a whole row where the instruction set allows it.
+// (A load that is larger than the store before it waits until that store has reached the cache.)
 
 using Sixteen = Register<double, 16>;
 
-/// Sixteen bytes from each of the places at[0], at[Stride], ...
+/// Collects sixteen bytes from each of the byte offsets at[0], at[Stride], ...
 template <int Stride, typename V>
 BALLAST_INLINE V collect(const void* base, const int* at) {
   using Raw = typename V::Raw;
@@ -242,10 +242,10 @@ BALLAST_INLINE void scatter(void* base, const int* at, V value) {
   }
 }
 
-/// Of every sixteen bytes of a and of b one half, Run numbers of a and of b by turns.
+/// Alternates Run numbers of a and Run of b, from one half (`Second`: the upper) of every 16 bytes.
 template <int Run, bool Second, typename V, int... Lane>
 BALLAST_INLINE V interleave(V a, V b, std::integer_sequence<int, Lane...>) {
-  constexpr int square = 16 / sizeof(typename V::Number);  // numbers of sixteen bytes
+  constexpr int square = 16 / sizeof(typename V::Number);  // numbers in sixteen bytes
   constexpr auto from = [](int lane) {
     const int k = lane % square, turn = k / Run;
     return lane - k + Second * square / 2 + turn / 2 * Run + k % Run + turn % 2 * V::width;
@@ -257,7 +257,7 @@ BALLAST_INLINE V interleave(V a, V b) {
   return interleave<Run, Second>(a, b, std::make_integer_sequence<int, V::width>{});
 }
 
-/// Squares of four by four singles transposed, in each sixteen bytes' place.
+/// Transposes squares of four by four singles: one square for each sixteen bytes of a register.
 template <typename V>
 BALLAST_INLINE void transpose_squares(const V* rows, V* columns) {
   const V low01 = interleave<1, false>(rows[0], rows[1]),
@@ -270,7 +270,7 @@ BALLAST_INLINE void transpose_squares(const V* rows, V* columns) {
   columns[3] = interleave<2, true>(high01, high23);
 }
 
-/// Six numbers of the rows at `at[0]`, `at[1]`, ...: component k of all in c[k].
+/// Loads six numbers of each row at `at[0]`, `at[1]`, ...: component k of all rows goes to c[k].
 template <typename V>
 BALLAST_INLINE void gather_bodies(const void* base, const int* at, V* c) {
   if constexpr (V::is_double) {
@@ -310,7 +310,7 @@ BALLAST_INLINE void scatter_bodies(void* base, const int* at, const V* c) {
 }
 
 #if defined(__x86_64__)
-// Sixteen bodies of eight singles: a row is a register's half, loaded and stored at once.
+// Sixteen bodies of eight singles each: a row fills half a register and is loaded and stored whole.
 
 BALLAST_INLINE void gather_bodies(const void* base, const int* at, Singles<64>* c) {
   const auto row = [ base, at ](int lane) __attribute__((always_inline)) {
@@ -330,8 +330,8 @@ BALLAST_INLINE void gather_bodies(const void* base, const int* at, Singles<64>* 
 BALLAST_INLINE void scatter_bodies(void* base, const int* at, const Singles<64>* c) {
   const __m512d zero = _mm512_setzero_pd(),
                 last[4] = {(__m512d)c[4].x, (__m512d)c[5].x, zero, zero};
-  // Sixteen bytes' places: components k of lanes 0-3, components 4 + k of lanes 0-3, then lanes
-  // 4-7.
+  // The sixteen bytes of columns[k] in half 0: component k, then component 4 + k of lanes 0-3, then
+  // both of lanes 4-7.
   const __m512i take[2] = {_mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0),
                            _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4)};
   for (int half = 0; half < 2; ++half) {

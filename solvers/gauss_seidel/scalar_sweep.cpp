@@ -43,7 +43,7 @@ BALLAST_INLINE Vector4 three_sums(const Vector8& x, const Vector8& y, const Vect
   return __builtin_shufflevector(pq, ss, 0, 1, 4, 5) + __builtin_shufflevector(pq, ss, 2, 3, 6, 7);
 }
 
-/// G w over both sides.
+/// Returns G w, summed over both sides.
 BALLAST_INLINE Vector4 relative_velocity(const Record& k, const Vector8& wa, const Vector8& wb) {
   const auto moved = [&](int i) __attribute__((always_inline)) {
     return load8(k.rows[0][i]) * wa + load8(k.rows[1][i]) * wb;
@@ -57,7 +57,7 @@ BALLAST_INLINE void relax(const Record& k, Impulse& r, Velocity* velocity) {
   double* vb = velocity[k.body[1]].w;
   const Vector8 wa = load8(va), wb = load8(vb);
   const Vector4 u = relative_velocity(k, wa, wb);
-  // The impulse that would stop the contact, then the law.
+  // The impulse that would stop the contact, then Coulomb's law.
   double y = r.y[0] - (u[0] + k.bias[0]) * k.local.inverse_normal;
   double t1 = r.y[1] - (u[1] + k.bias[1]) * k.local.inverse_s1;
   double t2 = r.y[2] - (u[2] + k.bias[2]) * k.local.inverse_s2;
@@ -74,7 +74,7 @@ BALLAST_INLINE void relax(const Record& k, Impulse& r, Velocity* velocity) {
   store8(vb, wb + push(1));
 }
 
-/// The same of a contact of one row: a third of the work.
+/// The same for a one-row contact: a third of the work.
 BALLAST_INLINE void relax_one_row(const Record& k, Impulse& r, Velocity* velocity) {
   double* va = velocity[k.body[0]].w;
   double* vb = velocity[k.body[1]].w;
@@ -87,7 +87,7 @@ BALLAST_INLINE void relax_one_row(const Record& k, Impulse& r, Velocity* velocit
   store8(vb, wb + gb * dy);
 }
 
-/// Contacts of three rows, which are those with friction, come before those of one.
+/// The first `with_friction` contacts have three rows, the others one row.
 BALLAST_FOR_EACH_CPU
 void sweep_records(const Record* records, Impulse* impulses, int with_friction, int count,
                    Velocity* velocity) {
@@ -95,7 +95,7 @@ void sweep_records(const Record* records, Impulse* impulses, int with_friction, 
   for (int c = with_friction; c < count; ++c) relax_one_row(records[c], impulses[c], velocity);
 }
 
-/// x moves along its search (see SearchStep); a slip root in lane 3 is left alone.
+/// Moves x along its search (see SearchStep). The caller restores a slip root in lane 3.
 template <typename Vector>
 BALLAST_INLINE void move_along(SearchStep step, double* x, double* before, double* direction) {
   Vector now = *reinterpret_cast<const Vector*>(x), &began = *reinterpret_cast<Vector*>(before);
@@ -108,7 +108,7 @@ void move_bodies(SearchStep step, Velocity* x, Velocity* before, Velocity* direc
   for (int b = 0; b < count; ++b) move_along<Vector8>(step, x[b].w, before[b].w, direction[b].w);
 }
 
-/// Returns the square of what the sweep changed.
+/// Moves and sweeps the contacts. Returns the square of the change by the sweep.
 BALLAST_FOR_EACH_CPU
 double sweep_records_along(SearchStep step, const Record* records, Impulse* impulses,
                            Impulse* before, Impulse* direction, int with_friction, int count,
@@ -134,7 +134,7 @@ double sweep_records_along(SearchStep step, const Record* records, Impulse* impu
   return square + square_one_row;
 }
 
-/// w += G^T change. Not by Vector8: without AVX the compiler spreads a number through memory.
+/// w += G^T change. Avoids Vector8, as without AVX the compiler broadcasts a number through memory.
 void push_bodies(const Record& k, const double* change, Velocity* velocity) {
   for (int s = 0; s < 2; ++s)
     for (int j = 0; j < ScalarSweep::width; ++j)
@@ -142,27 +142,27 @@ void push_bodies(const Record& k, const double* change, Velocity* velocity) {
           k.rows[s][0][j] * change[0] + k.rows[s][1][j] * change[1] + k.rows[s][2][j] * change[2];
 }
 
-/// Arguments in registers: through memory, the vectors that the caller's clone makes of them would
-/// not be forwarded.
+/// Takes its arguments in registers: in memory, the caller's clone would make vectors of them, for
+/// which store forwarding fails.
 [[gnu::noinline]] double judged(double rn, double r1, double r2, double un, double u1, double u2,
                                 double mu, double lambda_max) {
   return ContactJudge::scaled_natural_map({rn, r1, r2}, {un, u1, u2}, mu, lambda_max);
 }
 
-/// The judge's scaled natural map at the current iterate [m/s]. For one instruction set: where wide
-/// registers meet judged()'s narrow ones, a processor may wait longer than all of this takes.
+/// The judge's scaled natural map at the current iterate [m/s]. Compiled for one instruction set: a
+/// change from wide registers to the narrow ones of judged() may cost more than the computation.
 double natural_map(const Record& k, const Impulse& r, double lambda_max, const Velocity* velocity) {
   const Vector4 moved =
       relative_velocity(k, load8(velocity[k.body[0]].w), load8(velocity[k.body[1]].w));
-  // From the record's (y, r_T) and (u_N, u_T - c u_N) back to r and u, as the judge wants them.
+  // Turn the record's (y, r_T) and (u_N, u_T - c u_N) back into the judge's r and u.
   const double un = moved[0] + k.bias[0];
   return judged(r.y[0] - k.local.c1 * r.y[1] - k.local.c2 * r.y[2], r.y[1], r.y[2], un,
                 moved[1] + k.bias[1] + k.local.c1 * un, moved[2] + k.bias[2] + k.local.c2 * un,
                 k.local.mu, lambda_max);
 }
 
-/// Both sides' rows of G = H L^-T as the problem gives them; a side that does not move gets zero
-/// rows and the velocity `nowhere`, which stays zero.
+/// Writes both sides' rows of G = H L^-T in the problem's tangents. A side that does not move gets
+/// zero rows and the velocity `nowhere`, which stays zero.
 template <int Rows>
 void scale_rows(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots, int c,
                 int nowhere, Record& k) {
@@ -178,10 +178,10 @@ void scale_rows(const DynamicsForm& dynamics, const std::vector<MassRoot>& roots
   }
 }
 
-/// From H L^-T and the given bias to principal coordinates. Returns lambda_max(W_cc).
+/// Turns H L^-T and the given bias into principal coordinates. Returns lambda_max(W_cc).
 BALLAST_FOR_EACH_CPU
 double to_principal(Record& k, double mu, TangentTurn& turn) {
-  // W_cc = G G^T from six scalar products of rows, several at once.
+  // W_cc = G G^T from six scalar products of rows, three at once.
   const auto product = [&k](int i, int j) __attribute__((always_inline)) {
     return load8(k.rows[0][i]) * load8(k.rows[0][j]) + load8(k.rows[1][i]) * load8(k.rows[1][j]);
   };
@@ -195,7 +195,7 @@ double to_principal(Record& k, double mu, TangentTurn& turn) {
   const Vector4 rest = three_sums(product(1, 1), product(2, 1), product(2, 2));
   w << first[0], first[1], first[2], first[1], rest[0], rest[1], first[2], rest[1], rest[2];
   make_principal(w, mu, k.local, turn);
-  // Tangents turned, and c times the normal row taken off, as PrincipalContact wants it.
+  // Turn the tangents and subtract c times the normal row (see PrincipalContact).
   turn.to_principal(k.bias[1], k.bias[2]);
   k.bias[1] -= k.local.c1 * k.bias[0];
   k.bias[2] -= k.local.c2 * k.bias[0];
@@ -232,7 +232,7 @@ void ScalarSweep::prepare(const FrictionProblem& problem) {
   });
 }
 
-/// Masses factored, and the free velocities in the variables w = L^T v.
+/// Factors the masses and computes the free velocities in the variables w = L^T v.
 void ScalarSweep::prepare_bodies(const DynamicsForm& dynamics) {
   factor_masses(dynamics, roots_);
   free_velocity_.assign(dynamics.body_count() + part_error_.size(), {});
@@ -244,7 +244,7 @@ void ScalarSweep::prepare_bodies(const DynamicsForm& dynamics) {
   velocity_ = free_velocity_;
 }
 
-/// Rows and bias of one contact, then its principal coordinates.
+/// Makes rows and bias of one contact, then turns them into principal coordinates.
 void ScalarSweep::prepare_record(const FrictionProblem& problem, int place, int nowhere) {
   const int c = plan_.contacts()[place];
   Record& k = records_[place];
@@ -256,7 +256,7 @@ void ScalarSweep::prepare_record(const FrictionProblem& problem, int place, int 
 }
 
 void ScalarSweep::load(const FrictionProblem& problem, const Impulses& r) {
-  // The bodies start free, and every impulse pushes them once.
+  // The bodies start with their free velocities, and every impulse pushes them once.
   velocity_ = free_velocity_;
   for (int c = 0; c < problem.contact_count(); ++c) {
     const Record& k = records_[place_[c]];
@@ -267,7 +267,7 @@ void ScalarSweep::load(const FrictionProblem& problem, const Impulses& r) {
       t2 = given[2];
       turn_[place_[c]].to_principal(t1, t2);
     }
-    // An impulse that moves nothing would stay as it was given.
+    // A sweep could keep the given impulse of a contact that nothing moves along its normal.
     if (!(k.local.inverse_normal > 0.0)) normal = t1 = t2 = 0.0;
     // PrincipalContact's y = r_N + c . r_T stands in place of r_N.
     const double y[3] = {normal + k.local.c1 * t1 + k.local.c2 * t2, t1, t2};
@@ -322,13 +322,13 @@ double ScalarSweep::sweep_along(SearchStep step) {
 double ScalarSweep::error() {
   for_parts([this](const SweepPlan::Part& part, int number) {
     RootMeanSquare mean;
-    // As the judge does: contacts that nothing moves are left out.
+    // Leave out contacts that nothing moves, as the judge does.
     for (int k = part.begin; k < part.end; ++k)
       if (lambda_max_[k] > 0.0)
         mean.add(natural_map(records_[k], impulses_[k], lambda_max_[k], velocity_.data()));
     part_error_[number] = mean;
   });
-  // The parts' sums, always in the same order, whoever made them.
+  // Add the parts' sums in a fixed order, whichever threads made them.
   RootMeanSquare mean;
   for (const RootMeanSquare& part : part_error_) mean.add(part);
   return mean.value();

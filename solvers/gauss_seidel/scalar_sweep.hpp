@@ -1,12 +1,12 @@
 #pragma once
 // The sweep over bodies contact after contact, for problems of any kind: bodies with other unknowns
-// than a grain's, sides that are not opposite, few contacts. Of what a time step of a packing
-// gives, WideSweep is the faster way.
+// than a grain's, sides that are not opposite, few contacts. For the problems of a packing's time
+// steps WideSweep is faster.
 //
 // Bodies are in the variables w = L^T v (M = L L^T, unit mass), contacts in the coordinates of
 // PrincipalContact:
 //   (u_N, u_T - c u_N) = sum over sides G w + bias,   w += G^T (y, r_T) changes,   G = A H L^-T
-// so that each side is one block, read once, for both directions.
+// so that each side is one block that is read once for both equations.
 
 #include <vector>
 
@@ -22,44 +22,44 @@ namespace ballast {
 
 class ScalarSweep final : public ContactSweep {
  public:
-  /// The plan outlives the sweep.
+  /// The plan must outlive the sweep.
   explicit ScalarSweep(const SweepPlan& plan) : plan_(plan) {}
 
-  /// Shares sweeps, looks and preparation; null: one thread.
+  /// Shares sweeps, error evaluations and preparation; null: one thread.
   void use_team(WorkerTeam* team) { team_ = team; }
-  /// The plan has been prepared for `problem`, which has the dynamics form.
+  /// The plan must have been prepared for `problem`, which has the dynamics form.
   void prepare(const FrictionProblem& problem);
 
   void load(const FrictionProblem& problem, const Impulses& r) override;
   void store(const FrictionProblem& problem, Impulses& r) const override;
   void sweep() override;
   void start_search() override;
-  /// Contact by contact as the sweep passes: a small problem's sweep is shorter than its copies.
+  /// Moves impulses as the sweep reaches them: copying all of them costs more than a small sweep.
   double sweep_along(SearchStep step) override;
   double error() override;
 
   static constexpr int width = 8;  ///< numbers of a row: six, and two zeros that fill a register
 
-  /// What a sweep reads of a contact. A one-row contact has zeros for its tangents.
+  /// The data of a contact that a sweep reads. A one-row contact has zeros for its tangents.
   struct alignas(64) Record {
     double rows[2][3][width];  ///< G for body a, then b
     double bias[3];            ///< in the coordinates of the rows
     PrincipalContact local;
-    int body[2];  ///< a and b in the velocities
+    int body[2];  ///< index of a and of b in velocity_
     int row_count;
   };
-  /// What it writes.
+  /// The data of a contact that a sweep writes.
   struct alignas(32) Impulse {
     double y[3];  ///< (y, r_T)
-    double slip;  ///< the last slip root, first guess of the next
+    double slip;  ///< the last slip root, the first guess for the next one
   };
   struct alignas(64) Velocity {
     double w[width];
   };
 
  private:
-  /// Calls task(part, its number) for those of slabs, then for those between; those of a kind
-  /// at the same time.
+  /// Calls task(part, its number) for the slabs' interiors, all at the same time, then for the
+  /// interfaces.
   template <typename Task>
   void for_parts(const Task& task);
   void prepare_bodies(const DynamicsForm& dynamics);
@@ -68,8 +68,8 @@ class ScalarSweep final : public ContactSweep {
   const SweepPlan& plan_;
   WorkerTeam* team_ = nullptr;
   std::vector<MassRoot> roots_;
-  /// L^T v_free; then one for each part of the plan that never moves, so that threads share no
-  /// line.
+  /// L^T v_free. Each part of the plan has one more entry that never moves, so that threads share
+  /// no cache line.
   std::vector<Velocity> free_velocity_;
   std::vector<Velocity> velocity_;
   // In the order of the plan:
@@ -77,9 +77,9 @@ class ScalarSweep final : public ContactSweep {
   std::vector<Impulse> impulses_;
   std::vector<TangentTurn> turn_;
   std::vector<double> lambda_max_;  ///< of W_cc [1/kg]
-  std::vector<int> place_;          ///< of each contact in that order
+  std::vector<int> place_;          ///< each contact's position in that order
   std::vector<RootMeanSquare> part_error_;
-  // The search: where the last sweep began, and the direction.
+  // The search: the iterate from which the last sweep started, and the direction.
   std::vector<Impulse> impulses_before_, impulse_direction_;
   std::vector<Velocity> velocity_before_, velocity_direction_;
   std::vector<double> part_square_;

@@ -1,4 +1,4 @@
-// What WideSweep makes of a problem before its first sweep: groups, their records, free velocities.
+// WideSweep::prepare(): makes the groups, their records and the free velocities of a problem.
 
 #include <algorithm>
 #include <cstring>
@@ -9,27 +9,27 @@
 namespace ballast {
 namespace {
 
-/// Groups with fewer contacts on average cost more than contacts one by one.
+/// The least mean share of filled lanes. With fewer, groups cost more than contacts one by one.
 constexpr double least_fill = 0.4;
 
 constexpr int row_bytes = sizeof(BodyRow<double>);
 
-/// Unused elements between those of two parts, so that no page holds elements of both: threads
-/// share no line, and what a processor fetches ahead of the end of a part is not written by
-/// another.
+/// The number of unused elements between those of two parts, so that no page holds elements of
+/// both: threads share no cache line, and no thread writes what a processor prefetches beyond the
+/// end of another thread's part.
 template <typename Element>
 constexpr int elements_apart() {
   constexpr int page = 4096;  // bytes
   return page / sizeof(Element);
 }
 
-/// What a thread groups a part's contacts in.
+/// A thread's scratch space while it groups the contacts of a part.
 struct GroupingRoom {
   ContactGroups groups;
   std::vector<int> chosen, a, b, walls;
 };
 
-/// diag(m, m, m, 3 x 3), column-major.
+/// Returns whether `mass` (column-major) is diag(m, m, m, 3 x 3).
 bool is_grain_mass(const double* mass) {
   if (!(mass[0] == mass[7] && mass[0] == mass[14])) return false;
   for (int j = 0; j < 3; ++j)
@@ -51,7 +51,7 @@ bool WideSweep::prepare(const FrictionProblem& problem) {
   return true;
 }
 
-/// Grains and driven walls, or not.
+/// Finds the driven walls. Returns whether all other bodies are grains.
 bool WideSweep::sort_bodies(const DynamicsForm& dynamics) {
   const int bodies = dynamics.body_count();
   is_wall_.resize(bodies);
@@ -65,7 +65,7 @@ bool WideSweep::sort_bodies(const DynamicsForm& dynamics) {
 }
 
 /// False: however contacts are grouped, too many lanes stay empty. Contacts of one grain never
-/// share a group, so there are as many groups as some grain has contacts, at least.
+/// share a group, so there are at least as many groups as any grain has contacts.
 bool WideSweep::may_fill_lanes(const DynamicsForm& dynamics) {
   contacts_of_body_.assign(is_wall_.size(), 0);
   int contacts = 0, most = 0;
@@ -79,8 +79,8 @@ bool WideSweep::may_fill_lanes(const DynamicsForm& dynamics) {
   return contacts >= least_fill * group_lanes * most;
 }
 
-/// The rows of a slab's bodies follow each other, those that interfaces meet first; and so that
-/// threads share no line, each part has a zero velocity of its own for what does not move.
+/// Gives consecutive rows to the bodies of a slab, first to those with contacts in an interface.
+/// Each part has its own zero velocity for sides that do not move: threads share no cache line.
 void WideSweep::place_bodies(const DynamicsForm& dynamics) {
   parts_.assign(plan_.parts().size(), {});
   is_shared_.assign(is_wall_.size(), 0);
@@ -110,7 +110,7 @@ void WideSweep::place_bodies(const DynamicsForm& dynamics) {
   }
 }
 
-/// In the order of the plan. Every thread groups its share of the parts.
+/// Groups the contacts in the order of the plan. Every thread groups its share of the parts.
 bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
   const int count = static_cast<int>(parts_.size());
   if (groupings_.size() < parts_.size()) groupings_.resize(parts_.size());
@@ -146,15 +146,15 @@ bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
   return contacts_ - walls >= least_fill * group_lanes * groups;
 }
 
-/// Which contacts of a part stand side by side. False: one with friction is on a wall with an
-/// unknown, or one is between two such walls.
+/// Makes the groups of a part. False: a contact with friction is on a driven wall, or a contact is
+/// between two driven walls.
 bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
   const SweepPlan::Part& part = plan_.parts()[number];
   Part& made = parts_[number];
   Grouping& grouping = groupings_[number];
   const std::span<const int> order = plan_.contacts();
-  // Grains by their distance from the part's first row: an interface lies between two slabs that
-  // follow each other.
+  // Grains are numbered from the part's first row on. An interface lies between two consecutive
+  // slabs.
   const Part* slab = &parts_[number < plan_.slabs() ? number : number - plan_.slabs()];
   const Part* last = number < plan_.slabs() ? slab : slab + 1;
   const int first = slab->bodies.begin, rows = last->bodies.begin + last->bodies.count - first;
@@ -182,7 +182,7 @@ bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
   grouping.wall_of_group.clear();
   grouping.contacts = 0;
   room.walls.clear();
-  // Walls with an unknown, in the order in which they come.
+  // The driven walls, in the order in which they appear.
   for (int i = part.begin; i < part.end; ++i) {
     const int a = dynamics.body_a[order[i]], b = dynamics.body_b[order[i]];
     if (!is_wall(a) && !is_wall(b)) continue;
@@ -202,7 +202,7 @@ bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
   return true;
 }
 
-/// Every thread makes those of its share of the parts.
+/// Makes the records; every thread those of its share of the parts.
 bool WideSweep::make_records(const FrictionProblem& problem) {
   for_all_parts([&](int number) {
     Part& part = parts_[number];
@@ -223,7 +223,7 @@ bool WideSweep::make_records(const FrictionProblem& problem) {
   return std::ranges::all_of(parts_, &Part::is_usual);
 }
 
-/// The record of the contacts in `lanes`. False: another kind of contact.
+/// Makes the record of the contacts in `lanes`. False: there is a contact of another kind.
 template <typename Group>
 bool WideSweep::make_group(const FrictionProblem& problem, const int* lanes, int nowhere, Group& k,
                            GroupFrame& f, const ExactLoops<Group>& loops) const {
@@ -236,13 +236,13 @@ bool WideSweep::make_group(const FrictionProblem& problem, const int* lanes, int
   for (int lane = 0; lane < group_lanes; ++lane)
     if (lanes[lane] >= 0 && !fill_lane(problem, k, f, lane)) made = false;
   loops.make_principal(&k, &f, 1);
-  for (int lane = 0; lane < group_lanes; ++lane)  // nothing moves it along its normal?
+  for (int lane = 0; lane < group_lanes; ++lane)  // 0: nothing moves it along its normal
     if (lanes[lane] >= 0 && !(f.lambda_max[lane] > 0.0)) made = false;
   return made;
 }
 
-/// Rows and bias as the problem gives them, in the bodies' variables. False: the two sides' linear
-/// parts are not opposite.
+/// Writes rows and bias as the problem gives them, in the bodies' variables. False: the two sides'
+/// linear parts are not opposite.
 template <typename Group>
 bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& f, int lane) const {
   constexpr int rows = Group::rows;
@@ -270,7 +270,7 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
     linear[s] = block;
     block += rows * 6;
   }
-  // Both sides see the same linear rows with opposite signs: they are stored once, as b has them.
+  // Both sides have the same linear rows with opposite signs: they are stored once, as for b.
   const double sign = linear[1] ? 1.0 : -1.0, *line = linear[1] ? linear[1] : linear[0];
   int unlike = 0;
   for (int j = 0; line && j < 3; ++j)
@@ -287,7 +287,7 @@ void WideSweep::free_bodies(const DynamicsForm& dynamics) {
   free_.assign(rows_, {});
   exact_.bodies.assign(rows_, {});
   run_each(team_, dynamics.body_count(), /*together=*/64, [&](int b) {
-    // Grains keep their velocity v [m/s] in a group's coordinates; L^T is taken of the spin alone.
+    // Grains keep their velocity v [m/s]; only the angular velocity is multiplied by L^T.
     double* w = free_[row_of_body_[b]].w;
     const double* v = dynamics.v_free.data() + dynamics.dof_begin[b];
     std::copy_n(v, dynamics.body_dofs(b), w);

@@ -8,16 +8,16 @@
 namespace ballast {
 namespace {
 
-/// Rounding of single precision may be this share of the error.
+/// The rounding of single precision may be up to this share of the error.
 constexpr double allowed_share = 1.0 / 30.0;
 
 constexpr double single_rounding = 0x1p-24;
 
-/// A contact rests that opens this many times as fast as the error: on the box as many sweeps are
-/// then taken as without rests; a few more with 4 and less.
+/// A contact may rest if it opens faster than this many times the error. On the box the number of
+/// sweeps is then the same as without rests; with 4 and less it is slightly larger.
 constexpr double rests_from = 16.0;
 
-/// Records of more bytes do not stay in a core's cache from sweep to sweep.
+/// Records with more bytes than this do not stay in a core's cache from sweep to sweep.
 constexpr size_t far_bytes = 4 << 20;
 
 template <typename From, typename To, int Rows>
@@ -31,7 +31,7 @@ void cast_lanes(const From (&from)[group_lanes], To (&to)[group_lanes]) {
   for (int lane = 0; lane < group_lanes; ++lane) to[lane] = static_cast<To>(from[lane]);
 }
 
-/// A body's row takes half as many bytes.
+/// Byte offsets of body rows are half as large in single precision.
 constexpr int halved(int offset) { return offset / 2; }
 
 template <typename Double, typename Single>
@@ -71,8 +71,8 @@ void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
             for (int i = 0; i < group_lanes; ++i) {
               if (f.contact[i] < 0) continue;
               const double* rc = r.data() + problem.row_begin[f.contact[i]];
-              // The y' of group_kernels.hpp: n r_N + c' . (t r_T), with r_T
-              // turned to the principal tangents.
+              // The y' of group_kernels.hpp: n r_N + c' . (t r_T), with r_T turned to the principal
+              // tangents.
               y[0][i] = f.normal[i] * rc[0];
               if constexpr (requires { kind.groups[g].mu; }) {
                 const auto& k = kind.groups[g];
@@ -90,7 +90,7 @@ void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
   single_begins_ = single_allowed_;
 }
 
-/// A slab's bodies start free, and every impulse pushes them once.
+/// Gives a slab's bodies their free velocities; then every impulse of the part pushes once.
 void WideSweep::push_part(const Part& part) {
   std::copy_n(free_.begin() + part.bodies.begin, part.bodies.count,
               exact_.bodies.begin() + part.bodies.begin);
@@ -102,8 +102,8 @@ void WideSweep::push_part(const Part& part) {
       exact_, kernels_->exact, part);
 }
 
-/// The rows that another core wrote last, all at the same time: one by one, as the groups of an
-/// interface name them, each would take a hundred nanoseconds and more.
+/// Prefetches all body rows that another core may have written last. Fetched one by one, as the
+/// groups of an interface need them, each would take a hundred nanoseconds and more.
 template <typename Number>
 void WideSweep::fetch_shared(const State<Number>& state, const Part& interface) const {
   constexpr int line = 64;  // bytes
@@ -116,7 +116,7 @@ void WideSweep::fetch_shared(const State<Number>& state, const Part& interface) 
 }
 
 void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
-  // What nothing moves is in no group.
+  // Contacts between two bodies that never move belong to no group.
   r.setZero(problem.row_count());
   for_all_parts([&](int part) {
     for_kinds(
@@ -143,8 +143,8 @@ void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
   });
 }
 
-/// Two parts without a common body, or one: of both first the contacts with friction, then those of
-/// one row, then the driven walls'.
+/// Sweeps one part, or two parts without a common body: first the contacts with friction of both,
+/// then the one-row contacts, then those on driven walls.
 template <typename Number, typename Kernels>
 void WideSweep::sweep_parts(State<Number>& state, const Kernels& kernels, const SearchStep* step,
                             std::span<Part> parts) {
@@ -171,7 +171,7 @@ void WideSweep::sweep_parts(State<Number>& state, const Kernels& kernels, const 
   sweep_kind(state.wall, kernels.wall, &Part::wall);
 }
 
-/// Interiors first, with the bodies that are theirs; then the interfaces between slabs.
+/// Sweeps the interiors, after their bodies' step along a search, then the interfaces.
 template <typename Number, typename Kernels>
 double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, const SearchStep* step) {
   for_pairs(std::span(parts_).first(plan_.slabs()), [&](std::span<Part> parts) {
@@ -207,7 +207,7 @@ void WideSweep::start_search_in(State<Number>& state) {
   state.direction.assign(state.bodies.size(), {});
 }
 
-/// In double not before a sweep along it: most solves have none.
+/// In double the search starts only with the first sweep_along(), which most solves never call.
 void WideSweep::start_search() {
   search_begins_ = !in_single_;
   if (in_single_) start_search_in(single_);
@@ -224,7 +224,7 @@ double WideSweep::error() {
   return seen_error_;
 }
 
-/// In double before rounding could show, and where many sweeps have passed.
+/// Calls error() before rounding could show in the rough error, and after many sweeps without it.
 double WideSweep::rough_error() {
   constexpr int most_unseen = 64;
   constexpr double least_share = 1.0 / 32.0;
@@ -253,15 +253,14 @@ double WideSweep::error_in(const State<Number>& state, const Kernels& kernels) {
   return contacts_ > 0 ? std::sqrt(sum / contacts_) : 0.0;
 }
 
-// Sweeps in single precision, made good in double at every look at the error.
+// Sweeps in single precision, corrected in double by every error().
 //
-// At a look in double the impulses are taken to double and push the bodies in double; each
-// contact's velocity that follows becomes its bias, and the bodies of the single state start at
-// zero again. So where the single sweeps come to rest is the double problem's solution, and what
-// they round is the change since that look. What is left is the rounding of the impulses
-// themselves.
+// error() casts the impulses to double and lets them push the bodies in double. Each contact's
+// resulting velocity becomes its bias, and the bodies of the single state start at zero again. The
+// fixed point of the single sweeps is therefore the solution of the double problem, and they round
+// only the change since that error(). The rounding of the impulses themselves remains.
 
-/// Records are cast once for each prepare(), impulses now.
+/// Casts the impulses, and the records once for each prepare().
 void WideSweep::enter_single() {
   single_begins_ = false;
   in_single_ = true;
@@ -290,7 +289,7 @@ void WideSweep::enter_single() {
   start_search();
 }
 
-/// The iterate in double, and how large its impulses are.
+/// Casts the iterate to double and sums the squares of its normal impulses, as velocities n y'.
 void WideSweep::refresh() {
   last_bodies_.swap(exact_.bodies);
   for_parts(exact_, [this](Part& part) {
@@ -312,9 +311,9 @@ void WideSweep::refresh() {
   });
 }
 
-/// How far the single sweeps were off, over a slab's bodies: between the velocities that they had
-/// and those that their impulses give. The single bodies start at zero, and the last change stays;
-/// the velocities that contacts have become their biases.
+/// Sums the squared drift of a slab's bodies: the difference of the velocities that the impulses
+/// give and those that the single sweeps had. Then the single bodies start at zero (with the last
+/// change kept), and the contacts' velocities become their biases.
 void WideSweep::settle(Part& part) {
   part.drift_square = 0.0;
   for (int b = part.bodies.begin; b < part.bodies.begin + part.bodies.count; ++b) {
@@ -333,8 +332,8 @@ void WideSweep::settle(Part& part) {
       single_, part);
 }
 
-/// The rounding of an impulse, as a velocity of its contact, is no smaller than 2^-24 n y'. Beside
-/// it stands the rms drift of the bodies' velocities.
+/// Compares two estimates of rounding with the error: the rounding of impulses, as velocities of
+/// their contacts no smaller than 2^-24 n y' (rms), and the rms drift of the bodies' velocities.
 bool WideSweep::single_suffices(double error) const {
   double impulses = 0.0, drift = 0.0, bodies = 0.0;
   for (const Part& part : parts_) {
@@ -346,8 +345,8 @@ bool WideSweep::single_suffices(double error) const {
   return rounding + std::sqrt(drift / bodies) <= allowed_share * error;
 }
 
-/// A group rests whose contacts have no impulse and open by far: the sweep would leave them so. One
-/// that closes in between is seen by the next look.
+/// Lets a group rest if its contacts have no impulse and open fast: a sweep would leave them so.
+/// The next error evaluation sees a contact that closes in between.
 void WideSweep::choose_awake(double error) {
   const double least =
       may_rest_ ? rests_from * error : std::numeric_limits<double>::infinity();  // [m/s]
@@ -391,7 +390,7 @@ void WideSweep::leave_single() {
 bool WideSweep::finish_in_double() {
   single_begins_ = false;
   if (!in_single_) return false;
-  // One more sweep in double: every contact then obeys its law as if all sweeps had been.
+  // After one more sweep in double every contact obeys its law as if all sweeps had been in double.
   refresh();
   leave_single();
   sweep();

@@ -1,9 +1,9 @@
 #pragma once
 // The Gauss-Seidel sweep over bodies, sixteen contacts at a time (group_kernels.hpp).
 //
-// For what a time step gives: bodies with six unknowns and the mass diag(m, m, m, 3 x 3), contacts
-// whose sides have opposite linear parts, and driven walls of one unknown without friction. Of
-// anything else it says so, and ScalarSweep takes it.
+// It takes the problems of time steps: bodies with six unknowns and the mass diag(m, m, m, 3 x 3),
+// contacts whose sides have opposite linear parts, and driven walls of one unknown without
+// friction. For anything else prepare() returns false, and ScalarSweep takes the problem.
 
 #include <algorithm>
 #include <span>
@@ -19,14 +19,14 @@ namespace ballast {
 
 class WideSweep final : public ContactSweep {
  public:
-  /// The plan outlives the sweep.
+  /// The plan must outlive the sweep.
   explicit WideSweep(const SweepPlan& plan) : plan_(plan) {}
 
-  /// Shares sweeps, looks and preparation; null: one thread.
+  /// Shares sweeps, error evaluations and preparation; null: one thread.
   void use_team(WorkerTeam* team) { team_ = team; }
 
-  /// The plan has been prepared for `problem`. False, and nothing else may be called: another kind
-  /// of problem, or one whose groups would stay empty for the most part.
+  /// The plan must have been prepared for `problem`. False, and nothing else may be called: another
+  /// kind of problem, or one whose lanes would mostly stay empty.
   bool prepare(const FrictionProblem& problem);
 
   void load(const FrictionProblem& problem, const Impulses& r) override;
@@ -36,18 +36,18 @@ class WideSweep final : public ContactSweep {
   double sweep_along(SearchStep step) override { return sweep_in_precision(&step); }
   double error() override;
 
-  /// Whether sweeps from the next load() on are in single precision, until finish_in_double() or
-  /// until their rounding shows in the error. Loads, stores and errors are in double in any case.
+  /// Sets whether sweeps from the next load() on are in single precision, until finish_in_double()
+  /// or until their rounding shows in the error. Loads, stores and error() are always in double.
   void allow_single(bool allowed) override { single_allowed_ = allowed; }
-  /// Of the single iterate as it is, for a third of error()'s cost; now and then error() itself.
+  /// The error of the single-precision iterate at a third of error()'s cost, at times error().
   double rough_error() override;
   bool is_storable() const override { return !in_single_ || unseen_ == 0; }
-  /// Where sweeps were in single precision: one more in double, and the next ones are too, to the
-  /// next load(). Says whether that was so. A search begins anew.
+  /// Where sweeps were in single precision: sweeps once more in double, stays in double until the
+  /// next load(), starts a new search and returns true. Otherwise returns false.
   bool finish_in_double() override;
   bool is_single() const { return in_single_; }
 
-  /// For tests: another instruction set, sweeps over every group, how many are passed over.
+  /// For tests: sets the instruction set, lets no group rest, returns how many groups rest.
   void use_kernels(const GroupKernels& kernels) { kernels_ = &kernels; }
   void allow_rests(bool allowed) { may_rest_ = allowed; }
   int resting_groups() const;
@@ -58,48 +58,47 @@ class WideSweep final : public ContactSweep {
   struct Kind {
     using Loops = GroupLoops<Group>;
     std::vector<Group> groups;
-    std::vector<GroupFrame> frames;  ///< in double alone
+    std::vector<GroupFrame> frames;  ///< in double only
     std::vector<typename Loops::Impulses> impulses;
     std::vector<typename Loops::Search> search;
-    // In single precision alone: of the last look; see Range.
+    // In single precision only: velocities at the last error evaluation; groups to sweep (Range).
     std::vector<GroupVelocities<Group::rows>> seen;
     std::vector<int> awake;
   };
   /// All groups and the iterate, in double or single precision.
   template <typename Number>
   struct State : Kinds<Kind, Number> {
-    /// By row_of_body_; and one row for each part of the plan that never moves.
+    /// Indexed by row_of_body_. Each part of the plan has one more row, which never moves.
     std::vector<BodyRow<Number>> bodies, before, direction;
   };
-  /// Groups begin to begin + count of a kind. In single precision those are swept whose distances
-  /// from `begin` are kind.awake[begin] to before kind.awake[begin + awake].
+  /// Groups begin .. begin + count - 1 of a kind. In single precision only the groups begin + i are
+  /// swept, where i is one of kind.awake[begin] .. kind.awake[begin + awake - 1].
   struct Range {
     int begin = 0, count = 0, awake = 0;
   };
-  /// The groups of one part of the plan. Its sums are written by its thread: on a line of their
-  /// own.
+  /// The groups of one part of the plan. Its thread writes its sums: it has its own cache lines.
   struct alignas(64) Part {
     Range friction, one_row, wall;
-    Range bodies;                ///< rows of the slab, of an interior alone
-    int shared = 0;              ///< the first so many of them are met by interfaces
+    Range bodies;                ///< rows of the slab's bodies; interiors only
+    int shared = 0;              ///< interfaces touch the first `shared` of these bodies
     int nowhere = 0;             ///< the row that never moves
     double change_square = 0.0;  ///< of the last sweep along a search
     double error_square = 0.0;   ///< of error()
-    double impulse_square = 0.0, drift_square = 0.0;  ///< of the last look in single precision
-    bool is_usual = true;  ///< its contacts are of the kinds that there are groups of
+    double impulse_square = 0.0, drift_square = 0.0;  ///< at the last error() in single precision
+    bool is_usual = true;  ///< there are groups for all kinds of its contacts
   };
   template <typename Group>
   struct Lanes {
-    std::vector<int> contact;  ///< group_lanes a group; -1: none
+    std::vector<int> contact;  ///< group_lanes for each group; -1: none
   };
-  /// Which contacts of a part stand side by side.
+  /// The groups of contacts of a part.
   struct Grouping {
     Kinds<Lanes, double> lanes;
-    std::vector<int> wall_of_group;  ///< the body that a wall's group is on
-    int contacts = 0, on_walls = 0;  ///< that something moves
+    std::vector<int> wall_of_group;  ///< the driven wall of each group of wall contacts
+    int contacts = 0, on_walls = 0;  ///< numbers of contacts that something moves
   };
 
-  /// Calls task(friction...), then the same with what `each` has for one row and for walls.
+  /// Calls task() with the friction members of all `each`, then the one_row, then the wall ones.
   template <typename Task, typename... Each>
   static void for_kinds(const Task& task, Each&... each) {
     task(each.friction...);
@@ -119,7 +118,7 @@ class WideSweep final : public ContactSweep {
   template <typename Group>
   bool fill_lane(const FrictionProblem& problem, Group& group, GroupFrame& frame, int lane) const;
   void free_bodies(const DynamicsForm& dynamics);
-  /// Calls task(part) for the interiors, then for the interfaces; those of a kind at the same time.
+  /// Calls task(part) for all interiors at the same time, then for all interfaces.
   template <typename Number, typename Task>
   void for_parts(const State<Number>& state, const Task& task) {
     Part* interfaces = parts_.data() + plan_.slabs();
@@ -129,8 +128,8 @@ class WideSweep final : public ContactSweep {
       task(interfaces[k]);
     });
   }
-  /// Calls task(number) for all parts, a slab with the interface behind it: each thread has the
-  /// same parts as in for_parts().
+  /// Calls task(number) for all parts, each slab followed by the interface behind it. Each thread
+  /// has the same parts as in for_parts().
   template <typename Task>
   void for_all_parts(const Task& task) const {
     run_parts(team_, plan_.slabs(), [&](int slab) {
@@ -138,7 +137,7 @@ class WideSweep final : public ContactSweep {
       if (slab + 1 < plan_.slabs()) task(plan_.slabs() + slab);
     });
   }
-  /// Calls task(parts) for two of `parts` at a time, or for one where threads would wait for work.
+  /// Calls task(parts) for two of `parts` at a time, or for one where some thread would have none.
   template <typename Task>
   void for_pairs(std::span<Part> parts, const Task& task) {
     const int count = static_cast<int>(parts.size()),
@@ -173,29 +172,29 @@ class WideSweep final : public ContactSweep {
 
   std::vector<MassRoot> roots_;
   std::vector<char> is_wall_;          ///< of each body
-  std::vector<char> is_shared_;        ///< of each body: met by an interface
-  std::vector<int> contacts_of_body_;  ///< room for may_fill_lanes()
-  std::vector<int> row_of_body_;       ///< slab by slab, so that threads share no line
+  std::vector<char> is_shared_;        ///< of each body: has contacts in an interface
+  std::vector<int> contacts_of_body_;  ///< scratch space of may_fill_lanes()
+  std::vector<int> row_of_body_;       ///< slab by slab, so that threads share no cache line
   int rows_ = 0;
-  std::vector<Grouping> groupings_;  ///< of each part, and of more that there were
-  int contacts_ = 0;                 ///< that something moves
+  std::vector<Grouping> groupings_;  ///< of each part; never shrinks
+  int contacts_ = 0;                 ///< number of contacts that something moves
 
   State<double> exact_;
   std::vector<BodyRow<double>> free_;
-  std::vector<Part> parts_;  ///< as the plan has them: sums over them are in this order
+  std::vector<Part> parts_;  ///< in the plan's order, in which sums over parts are added
 
-  // In single precision, bodies hold what has changed since the last look, and the velocities that
-  // the contacts had then are their biases: rounding is that of the change.
+  // In single precision the bodies hold the change since the last error(), and the velocities that
+  // the contacts had then are their biases, so that only the change is rounded.
   State<float> single_;
-  std::vector<BodyRow<double>> last_bodies_;  ///< exact_.bodies of the last look
-  bool single_made_ = false;                  ///< records cast since prepare()
+  std::vector<BodyRow<double>> last_bodies_;  ///< exact_.bodies at the last error()
+  bool single_made_ = false;                  ///< records were cast since prepare()
   bool single_allowed_ = false;               ///< from the next load() on
-  bool single_begins_ = false;                ///< at the next look or sweep
+  bool single_begins_ = false;                ///< at the next error() or sweep
   bool may_rest_ = true;                      ///< see choose_awake()
   bool in_single_ = false;
-  bool search_begins_ = false;  ///< in double, with the next sweep along it
-  int unseen_ = 0;              ///< single sweeps since the last look in double
-  double seen_error_ = 0.0;     ///< that look's error
+  bool search_begins_ = false;  ///< in double: the next sweep_along() starts the search
+  int unseen_ = 0;              ///< single sweeps since the last error()
+  double seen_error_ = 0.0;     ///< what that error() returned
 };
 
 }  // namespace ballast

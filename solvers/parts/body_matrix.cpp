@@ -8,7 +8,7 @@ namespace {
 /// |b - A x| over |b|, above which an LU without exchanged rows is not trusted.
 constexpr double most_rest = 1e-8;
 
-/// Everybody that each body touches, itself among them, ascending.
+/// For each body, the bodies that it touches and the body itself, ascending.
 std::vector<std::vector<int>> bodies_in_contact(const DynamicsForm& d) {
   std::vector<std::vector<int>> near(d.body_count());
   for (int b = 0; b < d.body_count(); ++b) near[b].push_back(b);
@@ -25,8 +25,8 @@ std::vector<std::vector<int>> bodies_in_contact(const DynamicsForm& d) {
   return near;
 }
 
-/// sum += left^T E right, where `height` entries lie between columns of the sum. With sizes that
-/// the compiler knows it unrolls.
+/// sum += left^T E right, where columns of the sum are `height` entries apart. The compiler unrolls
+/// it where it knows the sizes.
 [[gnu::always_inline]] inline void add_product(const double* left, int left_dofs,
                                                const Eigen::Matrix3d& e, int rows,
                                                const double* right, int right_dofs, double* sum,
@@ -46,7 +46,7 @@ std::vector<std::vector<int>> bodies_in_contact(const DynamicsForm& d) {
 
 }  // namespace
 
-/// A body's columns have the rows of all that it touches.
+/// The columns of a body have the rows of all bodies that it touches, and its own.
 void BodyMatrix::prepare(const FrictionProblem& problem) {
   problem_ = &problem;
   const DynamicsForm& d = problem.dynamics;
@@ -124,7 +124,7 @@ bool BodyMatrix::solve(const std::vector<Eigen::Matrix3d>& gain, const Eigen::Ve
                        Eigen::VectorXd& x, double enough) {
   if (factor(gain)) {
     fronts_.solve(b, x);
-    // Refined once, as the other way is.
+    // Refined once, as LuFactor::solve() does.
     rest_ = b;
     rest_.noalias() -= matrix_ * x;
     if (rest_.norm() > enough * b.norm()) {

@@ -52,10 +52,10 @@ void ConeProgram::project(Eigen::VectorXd& x) const {
       x[row_begin[k]] = std::max(0.0, x[row_begin[k]]);
 }
 
-/// q with s, and with what the symmetric part of W leaves out.
+/// q plus s, plus the product of W's skew part with x, which the symmetric part leaves out.
 Eigen::VectorXd ConeProgram::linear_term(const Eigen::VectorXd& x) const {
   Eigen::VectorXd term = q + w_as_is_ * x - w * x;
-  // scale_ is unit D by now, so that this is D s / unit: s is a velocity like q.
+  // scale_ is unit D here, so that this is D s / unit: s is a velocity like q.
   for (int k = 0; k < contact_count(); ++k)
     term[row_begin[k]] += shift_[moving_.contact[k]] * scale_[row_begin[k]] / (unit_ * unit_);
   return term;
@@ -64,13 +64,13 @@ Eigen::VectorXd ConeProgram::linear_term(const Eigen::VectorXd& x) const {
 Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const Budget& budget,
                           int patience,
                           const std::function<void(const ConeRequest&, RoundAnswer&)>& convex) {
-  // A warm start says what s may be; a cold one has s = 0.
+  // A warm start gives the first s; a cold start has s = 0.
   shift_.reset(operator_);
   Eigen::VectorXd u;
   operator_.velocity(start, u);
   if (start.squaredNorm() > 0.0) shift_.follow(operator_, u);
   // A round: the last impulses give the linear term, `convex` solves with s held, and the
-  // velocities of its answer say the next s.
+  // velocities of its answer give the next s.
   Impulses r;
   const auto round = [&](const RoundRequest& request, RoundAnswer& answer) {
     Eigen::VectorXd x = request.last(row_).cwiseQuotient(scale_);

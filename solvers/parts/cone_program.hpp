@@ -14,8 +14,8 @@
 
 namespace ballast {
 
-/// What a solver of the convex program is handed, and gives back. No units: every block of W's
-/// diagonal has largest eigenvalue one, and the largest entry of the problem's q is one.
+/// The task of a solver of the convex program. Task and answer have no units: no block of W's
+/// diagonal has an eigenvalue above one, and the largest entry of the problem's q is one.
 struct ConeRequest {
   const Eigen::VectorXd& q;      ///< with s, one entry per row of ConeProgram
   const Eigen::VectorXd& start;  ///< in the cones
@@ -23,7 +23,7 @@ struct ConeRequest {
   Budget left;
 };
 
-/// Contacts that nothing moves are left out; contacts with mu = 0 keep one row.
+/// Contacts that no impulse moves are left out; contacts with mu = 0 keep one row.
 class ConeProgram {
  public:
   void take(const FrictionProblem& problem);
@@ -37,11 +37,11 @@ class ConeProgram {
   SparseRows w;                   ///< symmetric part
   Eigen::VectorXd q;              ///< without s
 
-  /// Every contact to the nearest point of its cone, or half-line.
+  /// Moves every contact to the nearest point of its cone or half-line.
   void project(Eigen::VectorXd& x) const;
 
-  /// Rounds of `convex` with the s-update between them; `convex` sets answer.x (rows of
-  /// ConeProgram), iterations, finished. `problem` is the one of take().
+  /// Calls `convex` in rounds, with the s-update between them. `convex` sets answer.x (rows of
+  /// ConeProgram), iterations and finished. `problem` is the one given to take().
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget, int patience,
                const std::function<void(const ConeRequest&, RoundAnswer&)>& convex);
 
@@ -49,10 +49,10 @@ class ConeProgram {
   Eigen::VectorXd linear_term(const Eigen::VectorXd& x) const;
 
   MovingContacts moving_;
-  SparseRows w_as_is_;  ///< a stored W may be unsymmetric: in solve() the rest goes into q, like s
-  std::vector<int> row_;   ///< in MovingContacts, of each row here
+  SparseRows w_as_is_;  ///< a stored W may be unsymmetric: solve() adds its skew part to q, like s
+  std::vector<int> row_;   ///< row in MovingContacts of each row here
   Eigen::VectorXd scale_;  ///< per row: impulse = scale * x [N s]
-  double unit_ = 1.0;      ///< of q scaled by 1 / sqrt(W_cc) [sqrt(J)]
+  double unit_ = 1.0;      ///< largest |entry| of q / sqrt(lambda_max(W_cc)) [sqrt(J)]
   double velocity_unit_ = 1.0;
   ContactOperator operator_;
   SlipShift shift_;

@@ -22,14 +22,14 @@ Matrix3d modified_velocity_jacobian(const Vector3d& u, double mu) {
 ContactLinearisation alart_curnier_linearised(const Vector3d& r, const Vector3d& u, double mu,
                                               double rho) {
   const Vector3d x = r - rho * u;
-  // It opens: the half-line's projection is zero, and the disc has no radius.
+  // The contact opens: the projection on the half-line is zero, and the disc has no radius.
   if (x[0] <= 0.0) return {r, Matrix3d::Identity(), Matrix3d::Zero()};
   const double t = tangential_norm(x), radius = mu * x[0];
-  // x sticks: F = rho u
+  // The contact sticks: F = rho u.
   if (t <= radius) return {rho * u, Matrix3d::Zero(), rho * Matrix3d::Identity()};
-  // It slips: the projection is (x_N, mu x_N d) with d = x_T / |x_T|.
+  // The contact slips: the projection is (x_N, mu x_N d) with d = x_T / |x_T|.
   const Vector3d direction(0.0, x[1] / t, x[2] / t);
-  Matrix3d projection = Matrix3d::Zero();  // of dx: half-line and disc, whose radius moves with x_N
+  Matrix3d projection = Matrix3d::Zero();  // its derivative; the disc's radius moves with x_N
   projection(0, 0) = 1.0;
   projection.block<2, 1>(1, 0) = mu * direction.tail<2>();
   projection.block<2, 2>(1, 1) =
@@ -47,14 +47,12 @@ Matrix3d arrow(const Vector3d& x) {
   return l;
 }
 
-/// (x^2 + y^2)^(1/2) in the Jordan algebra; a hair of smoothing keeps its derivative finite at the
-/// cone's boundary.
+/// (x^2 + y^2)^(1/2) in the Jordan algebra.
 Vector3d jordan_norm(const Vector3d& x, const Vector3d& y) {
   // x o x = (x.x, 2 x_0 x_1..). The root has the same axis as w and the square roots of its two
   // spectral values w_0 +- |w_1..|.
   Vector3d w = 2.0 * (x[0] * x + y[0] * y);
   w[0] = x.squaredNorm() + y.squaredNorm();
-  w[0] += 1e-24 * w[0];
   const double t = std::hypot(w[1], w[2]);
   const double large = std::sqrt(w[0] + t), small = std::sqrt(std::max(0.0, w[0] - t));
   Vector3d root(0.5 * (large + small), 0.0, 0.0);
@@ -68,7 +66,7 @@ ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vect
   if (mu == 0.0) {  // scalar along the normal, r_T = 0
     const double x = r[0], y = rho * u[0], norm = std::hypot(x, y);
     l.f = Vector3d(x + y - norm, r[1], r[2]);
-    // Where both vanish F has a corner; 0.3 is about 1 - sqrt(1/2), its slope along x = y.
+    // Where x and y both vanish F has a corner; 0.3 is about 1 - sqrt(1/2), its slope along x = y.
     l.by_r = Matrix3d::Identity();
     l.by_r(0, 0) = norm > 0.0 ? 1.0 - x / norm : 0.3;
     l.by_u(0, 0) = rho * (norm > 0.0 ? 1.0 - y / norm : 0.3);
@@ -78,16 +76,16 @@ ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vect
   const Vector3d to_x(mu, 1.0, 1.0), to_y(rho / mu, rho, rho);
   const Vector3d x = to_x.cwiseProduct(r), y = to_y.cwiseProduct(modified_velocity(u, mu));
   const Vector3d z = jordan_norm(x, y);
-  const Vector3d from_x = to_x.cwiseInverse();  // F is quoted as an impulse in the frame of r
+  const Vector3d from_x = to_x.cwiseInverse();  // gives F as an impulse in the frame of r
   l.f = from_x.cwiseProduct(x + y - z);
-  if (z[0] == 0.0) {  // x = y = 0: the limit from where both move along the axis
+  if (z[0] == 0.0) {  // x = y = 0: the limit along the cone's axis with x = y
     const double slope = 1.0 - std::sqrt(0.5);
     l.by_r = slope * Matrix3d::Identity();
     l.by_u = slope * from_x.cwiseProduct(to_y).asDiagonal() * modified_velocity_jacobian(u, mu);
     return l;
   }
-  // z o z = x o x + y o y, differentiated: L_z dz = L_x dx + L_y dy. On the cone's boundary L_z is
-  // singular, and a little of the identity makes it regular.
+  // Differentiating z o z = x o x + y o y gives L_z dz = L_x dx + L_y dy. On the cone's boundary
+  // L_z is singular, and a small multiple of the identity makes it regular.
   Matrix3d lz = arrow(z);
   const double smallest = z[0] - std::hypot(z[1], z[2]);
   if (smallest < 1e-10 * z[0]) lz += (1e-10 * z[0] + 1e-300) * Matrix3d::Identity();

@@ -2,8 +2,8 @@
 // Coulomb's law at one contact as a nonsmooth equation F(r, u) = 0, with an element of its
 // generalised Jacobian.
 //
-// Both vanish exactly where (u, r) obeys Signorini-Coulomb, for every rho > 0 [kg]; F is an
-// impulse [N s].
+// Both forms of F vanish exactly where (u, r) obeys Signorini-Coulomb, for every rho > 0 [kg]; F is
+// an impulse [N s].
 
 #include <Eigen/Dense>
 

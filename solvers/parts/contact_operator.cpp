@@ -7,7 +7,7 @@ namespace ballast {
 
 void ContactOperator::prepare(const FrictionProblem& problem) {
   problem_ = &problem;
-  // W_cc of every contact and the Cholesky factors of the masses; of a stored W only its blocks.
+  // W_cc of every contact, and for the dynamics form the Cholesky factors of the masses.
   delassus_diagonal(problem, roots_, diagonal_);
   rho_.resize(diagonal_.size());
   for (std::size_t c = 0; c < rho_.size(); ++c) {
@@ -41,7 +41,7 @@ void ContactOperator::multiply(const Impulses& r, Eigen::VectorXd& w) {
   }
   push_bodies(r);
   body_to_contact_velocity(problem_->dynamics, problem_->row_begin, v_, w);
-  // body_to_contact_velocity() adds the bias, which a product has not.
+  // body_to_contact_velocity() adds the bias, which is no part of the product.
   w -= problem_->dynamics.bias;
 }
 
@@ -58,7 +58,7 @@ double ContactOperator::begin_at(Impulses& r, Eigen::VectorXd& u) {
 
 double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const {
   RootMeanSquare mean;
-  // The judge's measure: contacts that nothing moves are left out.
+  // As in the judge's measure, contacts that no impulse moves are left out.
   for (int c = 0; c < contact_count(); ++c) {
     if (!(rho_[c] > 0.0)) continue;
     const double value =

@@ -1,6 +1,6 @@
 #pragma once
 // u = W r + q for both forms of a problem, its natural scaling, and the judge's error at an
-// iterate: what every method needs that looks at all contacts at once.
+// iterate. Every method that treats all contacts at once needs them.
 
 #include <vector>
 
@@ -10,8 +10,8 @@
 
 namespace ballast {
 
-/// Matrix-free for the dynamics form, the stored W otherwise; no product allocates. Vectors have
-/// one entry per row.
+/// Products are matrix-free for the dynamics form and use the stored W otherwise; none allocates.
+/// Vectors have one entry per row.
 class ContactOperator {
  public:
   /// `problem` must outlive the use of the operator (until the next prepare). Throws InvalidProblem
@@ -27,10 +27,10 @@ class ContactOperator {
   /// w = W r [m/s]. `w` must not be `r`.
   void multiply(const Impulses& r, Eigen::VectorXd& w);
 
-  /// W_cc: its symmetric part, zero-padded for one-row contacts.
+  /// The symmetric part of each W_cc, zero-padded for one-row contacts.
   const std::vector<Eigen::Matrix3d>& diagonal() const { return diagonal_; }
-  /// 1 / lambda_max(W_cc) [kg]; 0 where no impulse moves the contact. The scale in which a method
-  /// takes its steps.
+  /// 1 / lambda_max(W_cc) [kg]; 0 where no impulse moves the contact. Methods scale their steps by
+  /// it.
   const std::vector<double>& rho() const { return rho_; }
 
   /// One contact's rows, zero-padded: a one-row contact is a frictionless one without tangential
@@ -47,10 +47,10 @@ class ContactOperator {
     }
   }
 
-  /// Every contact's impulse to the nearest point of its cone; zero where nothing moves (rho = 0).
+  /// Moves every impulse to the nearest point of its cone; sets it to zero where rho = 0.
   void project(Impulses& r) const;
-  /// Where a method begins: r goes to the nearest point of its cones, and u to the velocities that
-  /// it gives. Returns error(r, u).
+  /// Begins a method: moves r to the nearest point of its cones and sets u to the velocities that r
+  /// gives. Returns error(r, u).
   double begin_at(Impulses& r, Eigen::VectorXd& u);
 
   /// The judge's scaled natural map, rms over contacts [m/s], of impulses r with the velocities u

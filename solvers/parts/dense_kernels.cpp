@@ -8,15 +8,15 @@
 namespace ballast {
 namespace {
 
-constexpr int tile_rows = 8;     // of C: one register of 512 bits, two of 256
-constexpr int tile_columns = 6;  // with them 12 of the 16 registers of 256 bits are sums
-constexpr int tall_rows = 16;    // of 512 bits: 12 of 32, or loads would take longer than sums
-constexpr int chunk = 256;       // of the sum over k: what is packed of A stays near
-constexpr int strip = 24;        // rows that are solved for before a long product
+constexpr int tile_rows = 8;     // of a tile of C: one register of 512 bits, two of 256
+constexpr int tile_columns = 6;  // so that 12 of the 16 registers of 256 bits hold sums
+constexpr int tall_rows = 16;    // for 512 bits: 12 of 32; with fewer, loads take longer than sums
+constexpr int chunk = 256;       // terms of the sum over k at once: packed A stays in cache
+constexpr int strip = 24;        // rows that are solved before a long product
 
 #define BALLAST_INLINE inline __attribute__((always_inline))
 
-/// `height` rows of a column, in registers of so many bytes.
+/// `height` rows of a column, in registers of `bytes` bytes.
 template <int bytes, int height = tile_rows>
 struct Rows {
   static constexpr int lanes = bytes / static_cast<int>(sizeof(double)), count = height / lanes;
@@ -33,7 +33,7 @@ struct Rows {
   BALLAST_INLINE void store(double* to) const {
     for (int i = 0; i < count; ++i) *reinterpret_cast<Loose*>(to + i * lanes) = part[i];
   }
-  /// The first `rows` of them, the others zero.
+  /// Loads the first `rows` rows and sets the others to zero.
   BALLAST_INLINE void load(const double* from, int rows) {
     if (rows == height) return load(from);
     double all[height];
@@ -67,7 +67,7 @@ BALLAST_INLINE void subtract_tile(int rows, int depth, const Rows<bytes, height>
   }
 }
 
-/// The same for as many columns as there are, at most N.
+/// subtract_tile() for `columns` columns, at most N.
 template <int N, int bytes, int height>
 BALLAST_INLINE void subtract_last(int columns, int rows, int depth,
                                   const Rows<bytes, height>* packed, const double* b,
@@ -76,7 +76,7 @@ BALLAST_INLINE void subtract_last(int columns, int rows, int depth,
   if constexpr (N > 1) subtract_last<N - 1>(columns, rows, depth, packed, b, stride_b, c, stride_c);
 }
 
-/// `rows` rows of C -= A B, at most `height`; `depth` of the sum.
+/// `rows` rows of C -= A B, at most `height`; `depth` terms of the sum.
 template <int bytes, int height>
 BALLAST_INLINE void subtract_rows(int rows, int n, int depth, const double* a,
                                   std::int64_t stride_a, const double* b, std::int64_t stride_b,
@@ -109,7 +109,7 @@ BALLAST_INLINE void product_loop(int m, int n, int k, const double* a, std::int6
   }
 }
 
-/// N columns of B := L^-1 B, `rows` of them. `l`: L's columns, zero on and above the diagonal.
+/// N columns of B := L^-1 B with `rows` rows. `l`: L's columns, zero on and above the diagonal.
 template <int N, int bytes>
 BALLAST_INLINE void solve_tile(int rows, const Rows<bytes>* l, double* b, std::int64_t stride_b) {
   double* column[N];
@@ -141,8 +141,8 @@ BALLAST_INLINE void solve_loop(int rows, int n, const double* l, std::int64_t st
   for (; j < n; ++j, b += stride_b) solve_tile<1>(rows, packed, b, stride_b);
 }
 
-/// A few columns, one after the other: what is below the pivot becomes a column of L, and its
-/// product with the pivot's row is taken from the other columns.
+/// Factors a few columns, one after the other: the entries below the pivot become a column of L,
+/// and its product with the pivot's row is subtracted from the later columns.
 BALLAST_FOR_EACH_CPU
 void factor_tall(double* a, int stride, int rows, int columns) {
   for (int k = 0; k < columns; ++k) {
@@ -196,8 +196,8 @@ void subtract_product(int m, int n, int k, const double* a, int stride_a, const 
 }
 
 void solve_unit_lower(int m, int n, const double* l, int stride_l, double* b, int stride_b) {
-  // Tile by tile: its rows by substitution, then their product with L is taken from the rows below,
-  // first those of the strip, after its last tile all others.
+  // Tile by tile: solves its rows by substitution, then subtracts their product with L from the
+  // rows below in the strip; after the strip's last tile, the strip's product from all other rows.
   for (int s = 0; s < m; s += strip) {
     const int end = std::min(m, s + strip);
     const double* columns = l + static_cast<std::int64_t>(s) * stride_l;
@@ -215,7 +215,7 @@ void solve_unit_lower(int m, int n, const double* l, int stride_l, double* b, in
 
 void factor_columns(double* a, int stride, int rows, int columns) {
   if (columns <= tile_rows) return factor_tall(a, stride, rows, columns);
-  // The left part, what it takes from the right one, and the rest of that.
+  // Factors the left part, subtracts its product from the right part and factors the rest of that.
   const int left = tile_rows * ((columns / tile_rows + 1) / 2), right = columns - left;
   factor_columns(a, stride, rows, left);
   double* beside = a + static_cast<std::int64_t>(left) * stride;

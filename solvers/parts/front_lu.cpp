@@ -10,7 +10,7 @@
 namespace ballast {
 namespace {
 
-/// L y = y on a front's own rows, and what they take from the boundary: `below` += L_below y.
+/// Solves L y = y in place on a front's own rows, and adds L_below y to `below` for its boundary.
 BALLAST_FOR_EACH_CPU
 void forward(const double* a, int rows, int own, double* __restrict y, double* __restrict below) {
   for (int j = 0; j < own; ++j, a += rows) {
@@ -20,7 +20,7 @@ void forward(const double* a, int rows, int own, double* __restrict y, double* _
   }
 }
 
-/// U y = y - (rest of the own rows) times the boundary's values.
+/// Solves U y = y - (rest of the own rows) times the boundary's values, in place.
 BALLAST_FOR_EACH_CPU
 void backward(const double* a, int rows, int own, const double* __restrict boundary,
               double* __restrict y) {
@@ -52,7 +52,7 @@ void FrontLu::analyse(const SparseColumns& a, const std::vector<int>& unknown_be
   unknown_begin_ = unknown_begin;
 }
 
-/// Rows come in blocks, and neighbours often stay neighbours: runs are many rows long.
+/// Rows come in blocks, and neighbours often stay neighbours in the parent: runs are long.
 void FrontLu::list_runs() {
   runs_.clear();
   runs_begin_.assign(1, 0);
@@ -83,7 +83,7 @@ void FrontLu::place_entries(const SparseColumns& a) {
         visit(front_of[std::min(row, column)], e, row, column);
       }
   };
-  // Sorted by front, then each front's rows looked up at once.
+  // Sorts the entries by front, then looks up the rows of one front after the other.
   struct Placed {
     int from, row, column;
   };
@@ -130,7 +130,7 @@ bool FrontLu::factor(const SparseColumns& a) {
   return true;
 }
 
-/// `shares`: the team works on the columns of this one.
+/// `shares`: the team shares the columns of this front.
 bool FrontLu::factor_front(int number, const double* values, bool shares) {
   const Front& front = tree_.fronts[number];
   double *numbers = numbers_.data() + front.numbers_at,
@@ -138,7 +138,7 @@ bool FrontLu::factor_front(int number, const double* values, bool shares) {
   const std::int64_t own = front.own, outside = front.boundary();
   std::fill_n(numbers, own * (front.rows + outside), 0.0);
   std::fill_n(boundary, outside * outside, 0.0);
-  // The matrix's own entries, then what the children left, the last one first.
+  // Adds the matrix's own entries, then the boundaries of the children, the last child first.
   for (int e = entries_begin_[number]; e < entries_begin_[number + 1]; ++e)
     numbers[entries_[e].to] += values[entries_[e].from];
   for (int k = 0, child = number - 1; k < front.child_count; ++k, --child) {
@@ -150,8 +150,8 @@ bool FrontLu::factor_front(int number, const double* values, bool shares) {
   return true;
 }
 
-/// The child's rows, which ascend, are first rows of the parent's own unknowns, then rows of its
-/// boundary; so are its columns. That makes four blocks, in three places.
+/// Adds a child's boundary to its parent. The child's rows ascend: first the parent's own rows,
+/// then rows of its boundary; so do its columns. That makes four blocks, in three places.
 void FrontLu::extend_add(int child, const Front& front, double* boundary) {
   const int own = front.own, rows = tree_.fronts[child].boundary();
   const double* from = boundaries_.data() + tree_.fronts[child].boundary_kept_at;
@@ -175,12 +175,12 @@ void FrontLu::extend_add(int child, const Front& front, double* boundary) {
     }
 }
 
-/// The elimination of one front, whose rows and columns are its own unknowns and then its boundary:
+/// Eliminates one front, whose rows and columns are its own unknowns and then its boundary:
 ///
 ///     [ A11  A12 ]   [ L11     ] [ U11  U12 ]
 ///     [ A21  A22 ] = [ L21   1 ] [        S ]    S = A22 - L21 U12: the parent's share
 ///
-/// A11 and A21 are `a`, A12 is `rest`. A22 is `boundary`: it holds what the children left, as the
+/// `a` holds A11 and A21, `rest` A12 and `boundary` A22. A22 comes from the children alone, as the
 /// matrix's own entries there belong to fronts above.
 bool FrontLu::eliminate(const Front& front, double* boundary, bool shares) {
   constexpr int strip = 48, most_columns = 96;
@@ -188,7 +188,7 @@ bool FrontLu::eliminate(const Front& front, double* boundary, bool shares) {
   const int rows = front.rows, own = front.own, outside = front.boundary();
   double* a = numbers_.data() + front.numbers_at;
   double* rest = a + static_cast<std::int64_t>(rows) * own;
-  // Columns that are shared out come in pieces, however many share them.
+  // Shared columns come in the same pieces, whatever the number of threads.
   const auto by_columns = [&](int columns, const auto& task) {
     if (!shares) return task(0, columns);
     run_ranges(team_, columns, most_columns, task);
@@ -206,7 +206,7 @@ bool FrontLu::eliminate(const Front& front, double* boundary, bool shares) {
       subtract_product(below, count, width, diagonal + width, rows, at, rows, at + width, rows);
     });
   }
-  // Nothing is exchanged, so that a tiny pivot would drown what follows in rounding.
+  // Rows are not exchanged, so that a tiny pivot would drown the following rows in rounding.
   for (int j = 0; j < own; ++j) {
     const double pivot = std::abs(a[static_cast<std::int64_t>(j) * rows + j]);
     if (!std::isfinite(pivot) || !(pivot > smallest_pivot * largest_[front.first + j]))
@@ -227,8 +227,8 @@ void FrontLu::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   const int unknowns = static_cast<int>(work_.size()),
             fronts = static_cast<int>(tree_.fronts.size());
   for (int i = 0; i < unknowns; ++i) work_[tree_.place[i]] = b[i];
-  // L y = b from the leaves up: a front solves its own rows, and takes their share from the rows of
-  // its boundary, which belong to fronts above.
+  // L y = b from the leaves up: a front solves its own rows, and subtracts their share from the
+  // rows of its boundary, which belong to fronts above.
   for (int f = 0; f < fronts; ++f) {
     const Front& front = tree_.fronts[f];
     const int* place = tree_.places.data() + front.rows_begin + front.own;

@@ -2,9 +2,9 @@
 // Multifrontal LU without pivoting, for the matrices of Newton's steps on bodies: M + H^T K H.
 //
 // Their symmetric part is nearly always positive definite and large on the diagonal, so that rows
-// need not be exchanged; whoever solves looks at the residual. What is saved against a general LU:
-// the analysis works on bodies, the fronts are dense (dense_kernels.hpp), and the pattern's
-// symmetry halves the bookkeeping. Needs SuiteSparse for the ordering: without it analyse() throws
+// need not be exchanged; BodyMatrix::solve() checks the residual. It is faster than a general LU
+// because the analysis works on bodies, the fronts are dense (dense_kernels.hpp), and the pattern's
+// symmetry halves the bookkeeping. The ordering needs SuiteSparse: without it analyse() throws
 // UnsupportedProblem.
 
 #include <vector>
@@ -16,17 +16,17 @@
 
 namespace ballast {
 
-/// A = L U in an order of its own.
+/// Factors A = L U in an order of elimination that it chooses.
 class FrontLu {
  public:
-  /// Orders and analyses. `a` square, compressed, any pattern; `unknown_begin[k]` is the first
-  /// unknown of block k, from 0 to the size of `a`. Where the pattern is the last one's, nothing is
-  /// done.
+  /// Orders and analyses. `a` is square and compressed, with any pattern; `unknown_begin[k]` is the
+  /// first unknown of block k, from 0 to the size of `a`. Does nothing where the pattern is the
+  /// last one's.
   void analyse(const SparseColumns& a, const std::vector<int>& unknown_begin);
-  /// `a` with the pattern of analyse(). False: a pivot is not finite, or below 1e-14 of the
-  /// largest entry of its column in `a`; solve() must then not be called.
+  /// Factors `a`, which has the pattern of analyse(). False: a pivot is not finite, or below 1e-14
+  /// of the largest entry of its column in `a`; solve() must then not be called.
   bool factor(const SparseColumns& a);
-  /// factor() is shared out to it; null: nobody helps. The same bits, whatever its size.
+  /// Shares factor() out to `team`; null: to nobody. The bits do not depend on its size.
   void use_team(WorkerTeam* team) { team_ = team; }
   /// x = A^-1 b. `x` may be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
@@ -34,12 +34,12 @@ class FrontLu {
   const FrontTree& tree() const { return tree_; }
 
  private:
-  /// An entry of the matrix and where it goes among a front's numbers.
+  /// The index of an entry among the matrix's values, and its index among a front's numbers.
   struct Entry {
     int from, to;
   };
-  /// Rows of a front's boundary that follow each other in its parent too: `count` of them, from
-  /// row `from` of the boundary on, are the parent's rows from `to` on, all its own or none.
+  /// `count` rows of a front's boundary, from its row `from` on, that follow each other in its
+  /// parent too, from the parent's row `to` on. All of them or none are the parent's own rows.
   struct Run {
     int from, to, count;
   };
@@ -52,7 +52,7 @@ class FrontLu {
   SparsePattern pattern_;
   std::vector<int> unknown_begin_;
   FrontTree tree_;
-  std::vector<double> numbers_, boundaries_;  ///< as each Front says
+  std::vector<double> numbers_, boundaries_;  ///< laid out as in Front
   std::vector<Entry> entries_;                ///< by front
   std::vector<int> entries_begin_;            ///< fronts + 1
   std::vector<Run> runs_;                     ///< by front

@@ -12,16 +12,16 @@ struct NodeTree {
   std::vector<std::vector<int>> boundary;  ///< nodes eliminated later that a node sees, ascending
 };
 
-/// `order` with every subtree of the elimination tree in one piece, children before parents.
+/// An order with every subtree of the elimination tree in one piece, children before parents.
 std::vector<int> postorder(const std::vector<int>& parent, const std::vector<int>& weight) {
   const int n = static_cast<int>(parent.size());
-  // The heaviest child last: it is the one that can be joined with its parent.
+  // The heaviest child comes last: only the last one can be joined with its parent.
   std::vector<std::vector<int>> children(n);
   std::vector<int> roots;
   for (int k = 0; k < n; ++k) (parent[k] < 0 ? roots : children[parent[k]]).push_back(k);
   for (std::vector<int>& list : children)
     std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return weight[a] < weight[b]; });
-  // Depth first with a stack of its own: a chain of bodies can make the tree as deep as it is long.
+  // Depth first with an explicit stack: a chain of bodies can make the tree as deep as it is long.
   std::vector<int> result, stack;
   std::vector<std::size_t> next(n, 0);
   for (const int root : roots) {
@@ -39,11 +39,11 @@ std::vector<int> postorder(const std::vector<int>& parent, const std::vector<int
   return result;
 }
 
-/// The tree, and what every node sees when its turn comes: its own later neighbours and what its
-/// children saw.
+/// The tree, with the nodes that every node sees when its turn comes: its own later neighbours and
+/// those that its children saw.
 NodeTree eliminate(const BlockGraph& graph, const std::vector<int>& order) {
-  // Eliminating a node joins all the later ones that it sees with one another. So the first of them
-  // is its parent, and sees the others. Of a chain a - b - c - d in the order a, c, b, d
+  // Eliminating a node makes all later nodes that it sees neighbours of one another. So the first
+  // of them is its parent, and sees the others. For a chain a - b - c - d in the order a, c, b, d
   //
   //     turn 0 (a) sees 2   turn 1 (c) sees 2, 3   turn 2 (b) sees 3 through c   turn 3 (d): root
   const int n = graph.node_count();
@@ -76,14 +76,14 @@ NodeTree eliminate(const BlockGraph& graph, const std::vector<int>& order) {
 struct Group {
   int first_node, last_node;  ///< inclusive; the boundary is the last node's
   int own;                    ///< unknowns
-  double zeros = 0.0;         ///< stored although nothing fills them
+  double zeros = 0.0;         ///< stored zeros that no elimination fills
 };
 
 /// Entries of a front's columns on and below the diagonal.
 double entries(double own, double boundary) { return own * (own + 1.0) / 2.0 + own * boundary; }
 
-/// Small fronts are joined gladly, large ones only where hardly a zero is stored. The steps are
-/// CHOLMOD's, in unknowns.
+/// Small fronts are joined readily, large ones only where hardly a zero is stored. The thresholds
+/// are CHOLMOD's, in unknowns.
 bool worth_joining(int own, double zero_share) {
   if (own <= 4 || zero_share == 0.0) return true;
   if (own <= 16) return zero_share < 0.8;
@@ -91,8 +91,8 @@ bool worth_joining(int own, double zero_share) {
   return zero_share < 0.05;
 }
 
-/// Each node a group of its own, then joined with the group before it wherever that is its child
-/// and it pays. `size` in unknowns, `seen[k]`: unknowns on node k's boundary.
+/// Makes each node a group and joins it with the group before it wherever that is its child and
+/// joining pays. `size` in unknowns, `seen[k]`: unknowns on node k's boundary.
 std::vector<Group> join(const NodeTree& tree, const std::vector<int>& size,
                         const std::vector<int>& seen) {
   std::vector<Group> groups;
@@ -124,14 +124,14 @@ double operations_of(const Front& front) {
   return 2.0 / 3.0 * own * own * own + 2.0 * own * own * outside + 2.0 * own * outside * outside;
 }
 
-/// The heaviest subtrees are taken apart, their uppermost fronts into the trunk, until none is a
-/// large part of the whole.
+/// Moves fronts from the top of the tree into the trunk until no remaining subtree, a branch, is a
+/// large part of the whole work.
 void share_out(FrontTree& tree) {
-  constexpr double smallest_total = 2e7;  // operations: below, waiting for threads costs more
+  constexpr double smallest_total = 2e7;  // operations; below it, waiting for threads costs more
   constexpr double largest_part = 1.0 / 6.0;
   const int fronts = static_cast<int>(tree.fronts.size());
   std::vector<double> work(fronts, 0.0);
-  std::vector<int> begin(fronts);  // of the subtree, which is contiguous
+  std::vector<int> begin(fronts);  // first front of each subtree, which is contiguous
   double total = 0.0;
   for (int f = 0; f < fronts; ++f) begin[f] = f;
   for (int f = 0; f < fronts; ++f) {
@@ -157,7 +157,7 @@ void share_out(FrontTree& tree) {
   }
 }
 
-/// A stack of boundaries for these fronts, children before parents, behind all stacks before it.
+/// Stacks the boundaries of these fronts, children before parents, behind all earlier stacks.
 void stack_boundaries(FrontTree& tree, const std::vector<int>& numbers) {
   const auto size = [&](int f) {
     return static_cast<std::int64_t>(tree.fronts[f].boundary()) * tree.fronts[f].boundary();
@@ -260,8 +260,8 @@ FrontTree make_front_tree(const BlockGraph& graph, const std::vector<int>& order
     if (parent < 0) continue;
     front.parent = front_of[parent];
     ++result.fronts[front.parent].child_count;
-    // What a front leaves lies within the rows of its parent, and both
-    // lists ascend: one walk finds all.
+    // A front's boundary lies within the rows of its parent, and both lists ascend: one walk finds
+    // all rows.
     int row = result.fronts[front.parent].rows_begin;
     for (int i = front.rows_begin + front.own; i < front.rows_begin + front.rows; ++i) {
       while (result.places[row] != result.places[i]) ++row;

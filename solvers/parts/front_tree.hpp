@@ -1,7 +1,7 @@
 #pragma once
-// The symbolic half of a multifrontal factorisation: which unknowns are eliminated together, what
-// their elimination touches, where its numbers lie, and what can be done at the same time. Pure
-// bookkeeping on a graph, without any library.
+// The symbolic half of a multifrontal factorisation: which unknowns are eliminated together, which
+// rows their elimination touches, where its numbers lie, and which fronts can be eliminated at the
+// same time. It is bookkeeping on a graph, without any library.
 //
 // Unknowns come in blocks, one per node of a graph (a body has six, a contact three), and are
 // always eliminated block by block. So the analysis looks at thousands of nodes, not at tens of
@@ -13,7 +13,7 @@
 
 namespace ballast {
 
-/// Nodes, each with some unknowns, and who is next to whom.
+/// Nodes, each with some unknowns, and their neighbours.
 struct BlockGraph {
   std::vector<int> unknown_begin{0};  ///< node k has unknowns unknown_begin[k] ..; nodes + 1
   std::vector<int> begin{0};          ///< of each node's neighbours; nodes + 1
@@ -29,48 +29,48 @@ struct BlockGraph {
 /// them.
 BlockGraph block_graph(const std::vector<int>& unknown_begin, const int* outer, const int* inner);
 
-/// A front eliminates its own unknowns and passes what remains, a dense matrix on its boundary, to
+/// A front eliminates its own unknowns and passes the remaining dense matrix, on its boundary, to
 /// its parent. A place is an unknown's number in the order of elimination.
 struct Front {
   int first = 0;        ///< place of its first own unknown; the others follow
-  int own = 0;          ///< how many it eliminates
-  int rows = 0;         ///< own, then the boundary
+  int own = 0;          ///< number of unknowns that it eliminates
+  int rows = 0;         ///< number of rows: its own, then its boundary
   int rows_begin = 0;   ///< in FrontTree::places: the places of all its rows, ascending
   int parent = -1;      ///< -1: a root, whose boundary is empty
-  int child_count = 0;  ///< its children are the last ones before it that have no parent yet
-  /// Where its numbers lie: its own columns (rows x own, column-major), in which L below and U
-  /// above the diagonal come to stand, then the rest of its own rows (own x boundary).
+  int child_count = 0;  ///< its children are the last fronts before it without a parent yet
+  /// Where its numbers begin: its own columns (rows x own, column-major), which become L below and
+  /// U above the diagonal, then the rest of its own rows (own x boundary).
   std::int64_t numbers_at = 0;
-  /// What it passes on (boundary x boundary, column-major) is made above what its children left,
-  /// and then moved down over them, where it waits for its parent:
+  /// The matrix that it passes on (boundary x boundary, column-major) is made above those of its
+  /// children, and then moved down over them, where it waits for its parent:
   ///
   ///     | .. | child 1 | child 2 | own |    ->    | .. | own |
   ///
-  /// Every branch has such a stack of its own, and the trunk one.
+  /// Every branch has a stack of its own, and so has the trunk.
   std::int64_t boundary_made_at = 0, boundary_kept_at = 0;
   int boundary() const { return rows - own; }
 };
 
 /// All fronts, children before parents. Branches are subtrees without a common front: different
-/// threads may eliminate them. The trunk is what stands above them, front by front.
+/// threads may eliminate them. The trunk consists of the fronts above them, eliminated one by one.
 ///
 ///   trunk                      the largest fronts: their columns are shared out
 ///     +-- branch, branch, ...  many fronts each
 ///
-/// They follow from the tree alone, never from the number of threads. A small tree is one branch.
+/// Both follow from the tree alone, never from the number of threads. A small tree is one branch.
 struct FrontTree {
   std::vector<int> place;  ///< of every unknown
   std::vector<Front> fronts;
   std::vector<int> places;  ///< see Front::rows_begin
-  /// Beside `places`: for a boundary row, its row in the parent's front; -1 for own rows.
+  /// Parallel to `places`: the row of a boundary row in the parent's front; -1 for own rows.
   std::vector<int> row_in_parent;
   std::vector<std::pair<int, int>> branches;  ///< fronts [first, second) of each
   std::vector<int> trunk;                     ///< ascending: children before parents
-  std::int64_t numbers = 0, boundaries = 0;   ///< of all fronts; of all stacks
+  std::int64_t numbers = 0, boundaries = 0;   ///< sizes: of all fronts; of all stacks
 };
 
 /// `order[k]` is the node to eliminate k-th; the tree may exchange nodes that do not see each
-/// other. Fronts that are nearly alike are joined: some zeros are stored for larger dense blocks.
+/// other. Small or nearly equal fronts are joined: some zeros are stored for larger dense blocks.
 FrontTree make_front_tree(const BlockGraph& graph, const std::vector<int>& order);
 
 }  // namespace ballast

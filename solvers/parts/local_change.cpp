@@ -10,7 +10,7 @@
 namespace ballast {
 
 bool ChangeNorms::within(double tolerance) const {
-  constexpr double largest = 16.666;  // as LMGC90 has it
+  constexpr double largest = 16.666;  // LMGC90's factor
   return velocity_mean < tolerance && energy_mean < tolerance && std::abs(drift) < tolerance &&
          velocity_max < largest * tolerance && energy_max < largest * tolerance;
 }
@@ -21,7 +21,7 @@ ChangeNorms local_change(ContactOperator& contacts, const Impulses& r) {
   double carrying = 0.0, d_squares = 0.0, w_squares = 0.0, energies = 0.0, dm_squares = 0.0,
          drift = 0.0, largest_d = 0.0, largest_dm = 0.0;
   for (int c = 0; c < contacts.contact_count(); ++c) {
-    if (!(contacts.rho()[c] > 0.0)) continue;  // nothing moves it
+    if (!(contacts.rho()[c] > 0.0)) continue;  // no impulse moves it
     const Eigen::Matrix3d& w = contacts.diagonal()[c];
     const Eigen::Vector3d before = contacts.at(r, c), free = contacts.at(u, c) - w * before;
     Eigen::Vector3d after;
@@ -70,7 +70,7 @@ class ChangeStopped final : public Solver {
       burst.max_iterations = std::min(burst.max_iterations, rule_.every);
       const int asked = whole.iterations + burst.max_iterations;
       whole.go_on(backend_->solve(problem, std::move(whole.impulses), burst), begun);
-      // The backend has nothing more to do, or failed, or the rule is met, or nothing is left.
+      // Ends if the backend stopped early or failed, the rule is met, or no iterations are left.
       if (whole.iterations < asked || whole.impulses.size() != problem.row_count()) return whole;
       if (local_change(contacts_, whole.impulses).within(rule_.tolerance)) {
         whole.reason = StopReason::stalled;

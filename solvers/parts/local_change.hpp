@@ -1,7 +1,7 @@
 #pragma once
-// LMGC90's rule for stopping sweeps, norm "QM/16", so that results can be compared with what was
-// computed under it. Read in LMGC90's nlgs (prep_check, solve, comp_check): 500 sweeps between two
-// looks and a tolerance of 1.666e-4 are what its scripts for polyhedra ask for.
+// LMGC90's rule for stopping sweeps, norm "QM/16", so that results can be compared with those
+// computed under it. It follows LMGC90's nlgs (prep_check, solve, comp_check); LMGC90's scripts for
+// polyhedra ask for 500 sweeps between two looks and a tolerance of 1.666e-4.
 //
 // At an iterate r, with the velocities u that it gives, each contact is solved once more while all
 // others are held: r' and u' = u + W_cc (r' - r). With
@@ -9,9 +9,9 @@
 //   d = u - u',   m = (r + r') / 2,   e = (r . W_cc r + r' . W_cc r') / 2,
 //   w^2 = (|W_cc r|^2 + |W_cc r'|^2) / 2
 //
-// and means < > over the contacts that carry something (m not zero), the numbers are those of
-// ChangeNorms. They tell how much one more sweep would change, not how far the solution is: sweeps
-// that creep satisfy them early.
+// and means < > over the contacts that carry an impulse (m not zero), ChangeNorms has the numbers.
+// They tell how much one more sweep would change, not how far the solution is: slowly converging
+// sweeps satisfy them early.
 
 #include <memory>
 
@@ -20,7 +20,7 @@
 
 namespace ballast {
 
-/// All relative. Zero where no contact carries anything.
+/// All are relative, and zero where no contact carries an impulse.
 struct ChangeNorms {
   double velocity_mean = 0.0;  ///< sqrt(<|d|^2> / <w^2>)
   double velocity_max = 0.0;   ///< max |d| / sqrt(<w^2>)
@@ -28,11 +28,11 @@ struct ChangeNorms {
   double energy_max = 0.0;     ///< max |d| |m| / <e>
   double drift = 0.0;          ///< <m . d> / <e>: signed, whether contacts open or close as a whole
 
-  /// The means and |drift| are below the tolerance, the largest below 16.666 of it.
+  /// Whether the means and |drift| are below the tolerance, and the maxima below 16.666 of it.
   bool within(double tolerance) const;
 };
 
-/// At the impulses r. `w` has been prepared for the problem.
+/// The norms at the impulses r. `w` has been prepared for the problem.
 ChangeNorms local_change(ContactOperator& w, const Impulses& r);
 
 struct ChangeRule {
@@ -40,9 +40,9 @@ struct ChangeRule {
   int every = 500;  ///< iterations from one look to the next
 };
 
-/// The backend in bursts of `rule.every` iterations, until the rule is met after one; the budget's
-/// tolerance is not asked. An answer that meets the rule is returned as `stalled`, since it may be
-/// far from a solution. Acceleration begins anew with every burst.
+/// Runs the backend in bursts of `rule.every` iterations until the rule is met after one; the
+/// budget's tolerance is ignored. An answer that meets the rule is returned as `stalled`, since it
+/// may be far from a solution. Acceleration begins anew with every burst.
 std::unique_ptr<Solver> make_change_stopped(std::unique_ptr<Solver> backend,
                                             const ChangeRule& rule);
 

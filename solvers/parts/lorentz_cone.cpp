@@ -6,8 +6,8 @@
 namespace ballast::lorentz {
 namespace {
 
-/// x.J x = (x_0 - |x_1|)(x_0 + |x_1|), J = diag(1, -1, -1): as a product, without cancellation of
-/// squares.
+/// x.J x with J = diag(1, -1, -1), as the product (x_0 - |x_1..|)(x_0 + |x_1..|): this avoids the
+/// cancellation of squares.
 double determinant(const Vector& x) {
   const double t = std::hypot(x[1], x[2]);
   return (x[0] - t) * (x[0] + t);
@@ -15,8 +15,7 @@ double determinant(const Vector& x) {
 
 Vector reflect(const Vector& x) { return {x[0], -x[1], -x[2]}; }
 
-/// 2 v v^T - J.
-/// Where v.J v = 1 it maps the cone onto itself, and its inverse is the same of J v.
+/// 2 v v^T - J. Where v.J v = 1 it maps the cone onto itself, and its inverse is the matrix of J v.
 Matrix hyperbolic_reflection(const Vector& v) {
   Matrix h = 2.0 * v * v.transpose();
   h(0, 0) -= 1.0;
@@ -34,15 +33,15 @@ Vector product(const Vector& x, const Vector& y) {
 }
 
 Vector divide(const Vector& x, const Vector& z) {
-  // With x = (x_0, x'): x o y = z says x.y = z_0 and x_0 y' + y_0 x' = z'. The latter gives y', and
-  // put into the former it leaves y_0 det x = x_0 z_0 - x'.z'.
+  // With x = (x_0, x'), x o y = z means x.y = z_0 and x_0 y' + y_0 x' = z'. The second gives y';
+  // put into the first it leaves y_0 det x = x_0 z_0 - x'.z'.
   const double y0 = (x[0] * z[0] - x[1] * z[1] - x[2] * z[2]) / determinant(x);
   return {y0, (z[1] - y0 * x[1]) / x[0], (z[2] - y0 * x[2]) / x[0]};
 }
 
 double longest_step(const Vector& x, const Vector& d, double most) {
-  // det(x + t d) = a t^2 + 2 b t + c vanishes where the path meets the boundary. Of its roots q / a
-  // and c / q neither suffers from cancellation, as q has no difference in it.
+  // det(x + t d) = a t^2 + 2 b t + c vanishes where the path meets the boundary. Its roots q / a
+  // and c / q do not suffer from cancellation, as q has no difference in it.
   const double a = determinant(d), c = determinant(x), b = x[0] * d[0] - x[1] * d[1] - x[2] * d[2];
   double step = most;
   if (d[0] < 0.0) step = std::min(step, -x[0] / d[0]);
@@ -73,8 +72,8 @@ bool scale(const Vector& x, const Vector& z, bool half_line, Scaling& scaling) {
   const Vector v = (w + Vector(1.0, 0.0, 0.0)) / std::sqrt(2.0 * (w[0] + 1.0));
   scaling.f = beta * hyperbolic_reflection(v);
   scaling.f_inverse = hyperbolic_reflection(reflect(v)) / beta;
-  // 2 w w^T - J with w_0^2 - |w_1..|^2 = 1: (w_0 +- |w_1..|)^2 along (1, +- w_1.. / |w_1..|), 1
-  // across.
+  // With w_0^2 - |w_1..|^2 = 1 the eigenvalues of 2 w w^T - J are (w_0 +- |w_1..|)^2 along (1, +-
+  // w_1.. / |w_1..|), and 1 across.
   const double length = std::hypot(w[1], w[2]), stretch = (w[0] + length) * (w[0] + length);
   const double cosine = length > 0.0 ? w[1] / length : 1.0,
                sine = length > 0.0 ? w[2] / length : 0.0;

@@ -21,16 +21,16 @@ Vector divide(const Vector& x, const Vector& z);
 /// The largest step t in [0, most] with x + t d in the cone, x inside.
 double longest_step(const Vector& x, const Vector& d, double most);
 
-/// F symmetric positive definite, maps L onto itself, F x = F^-1 z = lambda.
+/// F is symmetric positive definite and maps L onto itself; F x = F^-1 z = lambda.
 struct Scaling {
   Matrix f = Matrix::Identity(), f_inverse = Matrix::Identity();
   Vector lambda = Vector::Zero();
-  /// F^2 = sum of eigenvalue_i a_i a_i^T, a_i the columns of `axes`: each eigenvalue exact to
-  /// rounding, however far apart.
+  /// F^2 = sum of eigenvalue_i a_i a_i^T with a_i the columns of `axes`; each eigenvalue is exact
+  /// to rounding, however far apart they are.
   Vector eigenvalues = Vector::Ones();
   Matrix axes = Matrix::Identity();
 
-  /// axes f(eigenvalue) axes^T.
+  /// axes diag(f(eigenvalues)) axes^T.
   template <typename Function>
   Matrix of_square(const Function& function) const {
     return axes *
@@ -39,7 +39,7 @@ struct Scaling {
            axes.transpose();
   }
 };
-/// x and z inside; `half_line`: only entry 0 of each. False: one of them is not inside by rounding.
+/// x and z are inside; `half_line`: only entry 0 of each counts. False: by rounding one is not.
 bool scale(const Vector& x, const Vector& z, bool half_line, Scaling& scaling);
 
 }  // namespace ballast::lorentz

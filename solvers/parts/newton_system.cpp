@@ -5,15 +5,15 @@
 namespace ballast {
 namespace {
 
-/// A dense factorisation of so many rows is faster than looking for zeros.
+/// Up to so many rows a dense factorisation is faster than looking for zeros.
 constexpr int few_rows = 160;
-/// Beyond, it is where at least this share of the square is filled, up to so many rows.
+/// With more rows it is so where this share of the square is filled, up to most_dense_rows rows.
 constexpr double nearly_full = 0.3;
 constexpr int most_dense_rows = 600;
 
 }  // namespace
 
-/// The contacts with by_u = 0, and the list of the others.
+/// Solves the contacts with by_u = 0 and lists the others.
 bool NewtonSystem::solve_idle(const FrictionProblem& problem,
                               const std::vector<ContactLinearisation>& linear,
                               const std::vector<double>& alpha, Impulses& dr) {
@@ -69,8 +69,8 @@ bool NewtonSystem::solve_dense(const FrictionProblem& problem,
   return true;
 }
 
-/// All contacts, so that the pattern stays and is ordered once; idle ones have B alone in their
-/// rows.
+/// Solves for all contacts, so that the pattern stays and is ordered once; idle ones have B alone
+/// in their rows.
 bool NewtonSystem::solve_sparse(const FrictionProblem& problem,
                                 const std::vector<ContactLinearisation>& linear, Impulses& dr) {
   const int all_rows = problem.row_count();
@@ -85,7 +85,7 @@ bool NewtonSystem::solve_sparse(const FrictionProblem& problem,
         own.emplace_back(first + i, first + j, b_[c](i, j));
       }
   }
-  // Zeros among them stay entries.
+  // Zeros among the triplets stay entries.
   SparseColumns gain(all_rows, all_rows), diagonal(all_rows, all_rows);
   gain.setFromTriplets(gains.begin(), gains.end());
   diagonal.setFromTriplets(own.begin(), own.end());
@@ -123,7 +123,7 @@ bool NewtonSystem::solve_springs(const ContactOperator& w, const std::vector<Eig
   contact_to_body_impulse(problem.dynamics, problem.row_begin, dr, right_);
   if (!matrix_.solve(gain, right_, dv_, enough)) return false;
   body_to_contact_velocity(problem.dynamics, problem.row_begin, dv_, du);
-  // It adds the bias, which a change of velocity has not.
+  // body_to_contact_velocity() adds the bias, which is no part of a change of velocity.
   du -= problem.dynamics.bias;
   for (int c = 0; c < problem.contact_count(); ++c)
     w.put(dr, c, w.at(dr, c) - gain[c] * w.at(du, c));

@@ -9,34 +9,34 @@
 
 namespace ballast {
 
-///   by_r dr + by_u du = -f  at every contact,   du = W dr + alpha dr   (alpha: a proximal term, 0
-///   for none)
+///   by_r dr + by_u du = -f  at every contact,   du = W dr + alpha dr
+/// with a proximal term alpha, 0 for none.
 ///
 /// With the dynamics form the impulses are eliminated, dr = -B^-1 (f + by_u H dv), B = by_r + alpha
-/// by_u, and (M + H^T B^-1 by_u H) dv = -H^T B^-1 f is solved in the bodies' velocities: few
-/// unknowns, a pattern of bodies that touch.
+/// by_u, and (M + H^T B^-1 by_u H) dv = -H^T B^-1 f is solved for the bodies' velocities: it has
+/// few unknowns and entries only between bodies that touch.
 ///
 /// With a stored W it is (B + by_u W) dr = -f. A contact that nothing presses has by_u = 0, and its
-/// own rows give its dr. The others are a dense system where they are few or W is nearly full, and
-/// a sparse one with W's pattern elsewhere.
+/// own rows give its dr. The others form a dense system where they are few or W is nearly full;
+/// elsewhere all contacts form a sparse one with W's pattern.
 class NewtonSystem {
  public:
-  /// Pattern and positions of all blocks. `w` has been prepared for the problem.
+  /// Finds the pattern and the places of all blocks. `w` has been prepared for the problem.
   void prepare(const ContactOperator& w);
 
-  /// dr of the system above. `linear[c]` per contact; `alpha` [1/kg] per contact, > 0 with the
-  /// dynamics form (there B must be regular, and at a sticking contact by_r = 0). False: a singular
-  /// matrix.
+  /// Solves the system above for dr. `linear[c]` per contact; `alpha` [1/kg] per contact. With
+  /// the dynamics form B must be regular: alpha > 0 where by_r = 0, as at a sticking contact.
+  /// False: singular.
   bool solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
              const std::vector<double>& alpha, Impulses& dr);
 
-  /// dr = source - gain_c du,   du = W dr
-  /// by the same elimination, (M + H^T gain H) dv = H^T source. `dr` holds the source before.
-  /// `enough`: BodyMatrix::solve. Dynamics form only. False: singular, or not finite.
+  /// Solves dr = source - gain_c du, du = W dr by the same elimination, (M + H^T gain H) dv = H^T
+  /// source. `dr` holds the source before, the solution after. `enough`: see BodyMatrix::solve().
+  /// Dynamics form only. False: singular, or not finite.
   bool solve_springs(const ContactOperator& w, const std::vector<Eigen::Matrix3d>& gain,
                      Impulses& dr, Eigen::VectorXd& du, double enough = 0.0);
 
-  /// FrontLu::use_team
+  /// See FrontLu::use_team().
   void use_team(WorkerTeam* team) { matrix_.use_team(team); }
 
  private:
@@ -58,7 +58,7 @@ class NewtonSystem {
   std::vector<int> pressed_;  ///< contacts with by_u != 0
   std::vector<int> place_;    ///< of each row among those of pressed contacts; -1: none
   int pressed_rows_ = 0;
-  long pressed_entries_ = 0;  ///< of W in their rows
+  long pressed_entries_ = 0;  ///< entries of W in the rows of pressed contacts
   LuFactor sparse_lu_;
 };
 

@@ -19,9 +19,9 @@ void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& conta
   const double c1 = w(1, 0) * contact.inverse_normal, c2 = w(2, 0) * contact.inverse_normal;
   const double a = w(1, 1) - c1 * w(1, 0), b = w(2, 1) - c1 * w(2, 0), d = w(2, 2) - c2 * w(2, 0);
 
-  // Eigenvalues middle -+ h; the eigenvector of the larger one is along (delta + h, b) or, the
-  // same, (b, h - delta): whichever does not cancel. Selects, not branches: the order of the two is
-  // a coin's toss.
+  // The eigenvalues are middle -+ h. The eigenvector of the larger one is along (delta + h, b),
+  // which is parallel to (b, h - delta); the one without cancellation is taken. Selects replace
+  // branches, as the order of the two is unpredictable.
   const double middle = 0.5 * (a + d), delta = 0.5 * (a - d), h = std::sqrt(delta * delta + b * b);
   if (h > 0.0) {
     const double inverse_h = 1.0 / h;
@@ -32,8 +32,8 @@ void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& conta
   }
   contact.s1 = middle - h;
   contact.s2 = middle + h;
-  // Where S is singular, or negative by rounding, a W nearer to the given one than its own rounding
-  // is solved instead.
+  // Where S is singular, or negative by rounding, it is replaced by a regular one, which changes W
+  // by less than the rounding of W.
   contact.s1 = std::max(contact.s1, rounding * trace);
   contact.s2 = std::max(contact.s2, rounding * trace);
   contact.inverse_s1 = 1.0 / contact.s1;

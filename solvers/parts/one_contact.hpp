@@ -12,14 +12,14 @@
 
 namespace ballast {
 
-/// W of one contact in the coordinates in which it is diagonal. With c = W_TN / W_NN, the Schur
-/// complement S = W_TT - c W_TN^T, the tangents turned to the principal axes of S, and y = r_N + c
-/// . r_T in place of r_N:
+/// W of one contact in coordinates in which it is diagonal. With c = W_TN / W_NN, the tangents are
+/// turned to the principal axes of the Schur complement S = W_TT - c W_TN^T, and y = r_N + c . r_T
+/// replaces r_N:
 ///
 ///   u_N = W_NN y + q_N,     u_T - c u_N = S r_T + b,   S = diag(s1, s2),   b = q_T - c q_N
 ///
-/// Coulomb's law does not notice the turned tangents. Singular W is taken for the nearest regular
-/// one (relative rounding).
+/// Coulomb's law is the same in the turned tangents. A singular W is replaced by the nearest
+/// regular one (relative rounding).
 struct PrincipalContact {
   double inverse_normal =
       0.0;  ///< 1 / W_NN [kg]; 0: no impulse moves the contact along its normal, it is always open
@@ -47,13 +47,13 @@ struct TangentTurn {
   }
 };
 
-/// `w` symmetric positive semidefinite; a one-row contact has W_NN alone.
+/// `w` is symmetric positive semidefinite; for a one-row contact only W_NN is not zero.
 void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& contact,
                     TangentTurn& turn);
 
-/// The slip branch: from the stick solution (y, t1, t2) outside the cone to |r_T| = mu r_N, y
-/// unchanged. `x` = s1 + lambda: in, a guess (0: none); out, the root. Here, and not in the .cpp,
-/// because the sweeps compile it for several instruction sets.
+/// The slip branch: moves from the stick solution (y, t1, t2), which is outside the cone, to |r_T|
+/// = mu r_N with the same y. `x` = s1 + lambda: in, a guess (0: none); out, the root. It is defined
+/// here because the sweeps compile it for several instruction sets.
 //
 // Slip: u_N = 0 and u_T = -lambda r_T give (S + lambda) r_T = -b and r_N = y - c . r_T. With x = s1
 // + lambda, x1 = x, x2 = x + s2 - s1 and d = -b (so r_T,i = d_i / x_i), the unknown is the root of
@@ -72,7 +72,7 @@ inline void slide(const PrincipalContact& contact, double y, double& t1, double&
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double beyond =
-      1e80;  // where d / x is nothing: y is next to nothing; larger powers would overflow
+      1e80;  // where d / x counts as zero, as y is nearly zero; powers of a larger x would overflow
   const double mu = contact.mu;
   if (!(mu > 0.0)) {
     t1 = t2 = 0.0;
@@ -83,7 +83,7 @@ inline void slide(const PrincipalContact& contact, double y, double& t1, double&
   const double coupling1 = contact.c1 * d1, coupling2 = contact.c2 * d2,
                coupling = coupling1 + coupling2;
 
-  double low = contact.s1, high = infinity;  // high: the bracket's end, once Newton needs one
+  double low = contact.s1, high = infinity;  // high: the bracket's upper end, once known
   if (!(x > low))
     x = (std::sqrt(square) / mu + coupling) / y - spread * square2 / square;  // exact when s1 = s2
   if (!(x > low)) x = low * (1.0 + 8.0 * rounding);
@@ -102,7 +102,7 @@ inline void slide(const PrincipalContact& contact, double y, double& t1, double&
     else
       high = x;
     double next = x + gap * (r_square / (mu * slope));
-    // Newton's error is squared: after so short a step the next one would be below rounding.
+    // Newton squares its error: after a step this short the next one would be below rounding.
     const bool last = std::abs(next - x) <= 1e-9 * x;
     if (!last && !(next > low && next < high)) {
       if (high == infinity)
@@ -120,11 +120,11 @@ inline void slide(const PrincipalContact& contact, double y, double& t1, double&
   t2 = d2 * x * scale;
 }
 
-/// The three cases, in order. In: the impulse (y, r_T) that would stop all motion; out: the
-/// solution. Inlined into the sweeps.
+/// Tries open, stick and slip in this order. In: the impulse (y, r_T) that would stop all motion;
+/// out: the solution. Inlined into the sweeps.
 inline ContactStatus apply_coulomb(const PrincipalContact& contact, double& y, double& t1,
                                    double& t2, double& x) {
-  if (y <= 0.0) {  // q_N >= 0: leaves by itself
+  if (y <= 0.0) {  // q_N >= 0: the contact opens without an impulse
     y = t1 = t2 = 0.0;
     return ContactStatus::open;
   }
@@ -134,9 +134,9 @@ inline ContactStatus apply_coulomb(const PrincipalContact& contact, double& y, d
   return ContactStatus::slip;
 }
 
-/// One contact solved while all others are held. In: its impulse r and the velocity u that all
-/// impulses give it, in the given tangents; out: r. `slip`: the last slip root, kept for the next
-/// visit.
+/// Solves one contact while all others are held. In: its impulse r and the velocity u that all
+/// impulses together give it, in the given tangents; out: r. `slip`: the last slip root, kept for
+/// the next visit.
 inline ContactStatus resolve_contact(const PrincipalContact& contact, const TangentTurn& turn,
                                      const double* velocity, double* r, double& slip) {
   double u1 = velocity[1], u2 = velocity[2], t1 = r[1], t2 = r[2];
@@ -153,14 +153,14 @@ inline ContactStatus resolve_contact(const PrincipalContact& contact, const Tang
   return status;
 }
 
-/// Take-off, stick, or slip by a bracketed one-dimensional root; see slide() for the bracket's
-/// proof.
+/// Solves one contact as open, stick, or slip by a bracketed one-dimensional root; slide() has the
+/// proof of the bracket.
 ///   open : q_N >= 0                        -> r = 0
 ///   stick: r = -W^-1 q lies in K_mu        -> u = 0
 ///   slip : u_N = 0, u_T = -lambda r_T, |r_T| = mu r_N, lambda > 0
-/// `lambda` in: a guess (0: none), out: the slip root [1/kg]. The scaled natural map is at most
+/// `lambda`: in, a guess (0: none); out, the slip root [1/kg]. The scaled natural map is at most
 /// 1e-12 (|q| + lambda_max(W) |r|), for every SPD W and mu >= 0: u = W r + q itself cannot be
-/// evaluated more closely than the rounding of its largest term.
+/// evaluated more exactly than the rounding of its largest term.
 ContactStatus solve_one_contact(const Eigen::Matrix3d& w, const Eigen::Vector3d& q, double mu,
                                 Eigen::Vector3d& r, double& lambda);
 

@@ -30,8 +30,8 @@ RegularStep regular_step(double mu, double rho, double epsilon, const Eigen::Vec
     step.status = ContactStatus::stick;
     return step;
   }
-  // Slip: u~_N + du~_N = 0; along z_T the impulse goes to the disc's edge, which moves with r_N;
-  // across it turns as the projection on the disc turns. kappa <= 1: else a gain would be negative.
+  // Slip: u~_N + du~_N = 0. Along z_T the impulse goes to the disc's edge, which moves with r_N;
+  // across z_T it turns as the projection on the disc does. kappa <= 1: else a gain is negative.
   const double e1 = z[1] / t, e2 = z[2] / t, radius = mu * std::max(r[0], 0.0);
   const double kappa = std::min(1.0, radius / t);
   // Across z_T: r + dr = kappa dz with dz = dr - rho (du + epsilon_c dr) and rho epsilon_c =

@@ -44,7 +44,7 @@ void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
 
 void ShiftedDelassus::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements) {
   solve_once(b, x);
-  // What (W + P) x lacks of b is solved for with the same factor: each turn takes off most of the
+  // Solves for the residual b - (W + P) x with the same factor: each turn removes most of the
   // rounding that P's wide range has caused.
   for (int k = 0; k < refinements; ++k) {
     residual_.resize(b.size());

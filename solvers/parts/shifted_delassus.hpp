@@ -4,7 +4,7 @@
 //
 // Dynamics form, Sigma = P^-1: in velocity space, sparse and never rank deficient (Woodbury),
 //   (W + P)^-1 b = Sigma b - Sigma H (M + H^T Sigma H)^-1 H^T Sigma b
-// Stored W: W + P itself, eliminated contact by contact.
+// Stored W: W + P itself is eliminated contact by contact.
 
 #include <vector>
 
@@ -15,19 +15,19 @@ namespace ballast {
 
 class ShiftedDelassus {
  public:
-  /// The constant parts. `w` must stay prepared for the same problem.
+  /// Prepares the parts that do not depend on P. `w` must stay prepared for the same problem.
   void prepare(ContactOperator& w);
 
   /// P_c [1/kg] of every contact, 3 x 3 symmetric positive definite, and P_c^-1 [kg], which the
-  /// caller knows better than an inversion would: set before factor(), and left until the last
-  /// solve(). Of a one-row contact only entries 0,0 are read.
+  /// caller knows more exactly than an inversion. Set both before factor() and keep them until the
+  /// last solve(). Of a one-row contact only entries 0,0 are read.
   std::vector<Eigen::Matrix3d> shift, sigma;
-  /// False: not definite to working precision; solve() must then not be called.
+  /// False: singular to working precision; solve() must then not be called.
   bool factor();
   /// x = (W + P)^-1 b, improved `refinements` times by the residual of the whole system. `x` must
   /// not be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, int refinements = 0);
-  /// FrontLu::use_team
+  /// See FrontLu::use_team().
   void use_team(WorkerTeam* team) {
     bodies_.use_team(team);
     sum_.use_team(team);
@@ -39,8 +39,8 @@ class ShiftedDelassus {
   ContactOperator* w_ = nullptr;
   bool dynamics_ = false;
   BodyMatrix bodies_;     ///< dynamics form
-  SparseRows h_;          ///< the same
-  SparseColumns stored_;  ///< W
+  SparseRows h_;          ///< dynamics form
+  SparseColumns stored_;  ///< stored W
   FrontLu sum_;           ///< W + P
   Eigen::VectorXd scaled_, body_, contact_, residual_, correction_;
 };

@@ -94,10 +94,10 @@ void SlipShift::improve(const ContactOperator& w, const Eigen::VectorXd& u) {
   const double now = distance(w, u);
   for (int c = 0; c < w.contact_count(); ++c)
     image_[c] = w.friction(c) * tangential_norm(w.at(u, c));
-  // Past steps mislead once the distance grows: the plain step, afresh.
+  // Past steps mislead once the distance grows: they are forgotten, and the step is plain.
   if (now > 2.0 * last_distance_) mixing_.forget();
   mixing_.step(s_, image_);
-  // An extrapolation may overshoot; no speed is negative.
+  // An extrapolation may overshoot, but s is never negative.
   s_ = s_.cwiseMax(0.0);
   last_distance_ = now;
 }

@@ -4,9 +4,9 @@
 // With s_c = mu |u_T| held, Coulomb's law is the optimality of a convex problem (De Saxce 1998;
 // Acary, Cadoux, Lemarechal, Malick 2011):
 //   min 1/2 r.W r + r.(q + s n)  over K_mu:   K_mu ∋ r  ⟂  u + s n ∈ K_mu*,  u = W r + q
-// and s is right when it is mu |u_T| of its own solution. That fixed point contracts by about 0.75
-// an outer step, so it is taken often (every few iterations of a first-order method) or accelerated
-// by Anderson mixing (after an inner solve).
+// and s is right when it is mu |u_T| of its own solution. This fixed-point iteration contracts by
+// about 0.75 an outer step, so it is repeated often (every few iterations of a first-order method)
+// or accelerated by Anderson mixing (after an inner solve).
 
 #include <vector>
 
@@ -55,13 +55,13 @@ class SlipShift {
 
   /// s := mu |u_T|.
   void follow(const ContactOperator& w, const Eigen::VectorXd& u);
-  /// One outer step after an inner solve that gave `u`: s towards mu |u_T|, Anderson-accelerated;
-  /// where the distance has grown since the last call, the plain step from afresh.
+  /// Outer step after an inner solve that gave `u`: moves s towards mu |u_T| by Anderson mixing.
+  /// Past steps are forgotten where the distance has more than doubled since the last call.
   void improve(const ContactOperator& w, const Eigen::VectorXd& u);
   /// The distance |s - mu |u_T||, rms over contacts [m/s].
   double distance(const ContactOperator& w, const Eigen::VectorXd& u) const;
-  /// |r - P_K(r - rho (u + s n))| / rho, rms over the contacts that move: how far the convex
-  /// problem with s held is from solved by r [m/s].
+  /// |r - P_K(r - rho (u + s n))| / rho, rms over the contacts that move: how far r is from solving
+  /// the convex problem with s held [m/s].
   double convex_error(const ContactOperator& w, const Impulses& r, const Eigen::VectorXd& u) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// A sparse factorisation by SuiteSparse: the only place that knows UMFPACK, and CHOLMOD for its
-// ordering. Beside it stands our own, parts/front_lu, for matrices whose unknowns come in blocks.
+// A sparse factorisation by SuiteSparse: the only place that uses UMFPACK, and CHOLMOD for its
+// ordering. parts/front_lu is Ballast's own, for matrices whose unknowns come in blocks.
 
 #include <algorithm>
 #include <memory>
@@ -15,16 +15,16 @@ namespace ballast {
 
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
-/// This build has SuiteSparse. Where it has not, sparse_factor_missing.cpp stands in: whatever
-/// factorises still compiles and links, factor() throws UnsupportedProblem, and the list of solvers
-/// offers none of it.
+/// Whether this build has SuiteSparse. Where it has not, sparse_factor_missing.cpp takes its place:
+/// callers still compile and link, factor() throws UnsupportedProblem, and the list of solvers
+/// offers none that factorises.
 bool has_sparse_factors();
 
-/// Where a sparse matrix has entries, remembered: the symbolic work on it is kept while the next
-/// matrix has the same.
+/// The pattern of the last sparse matrix: the symbolic work on it is kept while the next matrix has
+/// the same pattern.
 class SparsePattern {
  public:
-  /// `a` compressed.
+  /// Whether `a`, which is compressed, has this pattern.
   bool is(const SparseColumns& a) const {
     return static_cast<Eigen::Index>(outer_.size()) == a.outerSize() + 1 &&
            static_cast<Eigen::Index>(inner_.size()) == a.nonZeros() &&
@@ -48,7 +48,7 @@ class LuFactor {
 
   /// `a` square, compressed, sorted. False: singular to working precision.
   bool factor(const SparseColumns& a);
-  /// x = A^-1 b, improved once by its residual: the matrix given to factor() must still live. `x`
+  /// x = A^-1 b, refined once by its residual: the matrix given to factor() must still exist. `x`
   /// must not be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
@@ -57,8 +57,8 @@ class LuFactor {
   std::unique_ptr<State, void (*)(State*)> state_;
 };
 
-/// An order of elimination with little fill: nested dissection of the graph by METIS, a function of
-/// the graph alone. Where nodes are few or the library is content with less, it may be another
+/// An order of elimination with little fill: nested dissection of the graph by METIS, which depends
+/// on the graph alone. For few nodes, or where the library settles for less, it may be another
 /// order.
 std::vector<int> dissection_order(const BlockGraph& graph);
 

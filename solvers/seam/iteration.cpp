@@ -42,12 +42,12 @@ bool Iteration::error_due() {
 
 void Iteration::evaluated(double error, const Impulses& r) {
   const bool is_enough = budget_.fclib && budget_.fclib->reached(r, error);
-  // What is remembered: the point, and since when the error has not changed in any digit.
+  // Record the point, and since when no digit of the error has changed.
   see(error);
   if (budget_.keep_history) history_.push_back({count_, seconds(), error});
   if (!(error == error_)) unchanged_since_ = count_;
   error_ = error;
-  // The next look: later by the factor that fits the distance.
+  // The next evaluation is later by the factor for the present distance from the aim.
   const bool is_far = error > CheckSchedule::far * budget_.aim();
   const double growth = is_far ? schedule_.growth_far : schedule_.growth;
   while (next_check_ <= count_)
@@ -87,8 +87,8 @@ void Course::run(Solver& solver, const FrictionProblem& problem, int most_iterat
 
 void Course::offer(const Impulses& r, double error) {
   see(error);
-  // The other measure may be reached where the error is not the smallest. Of an error of zero it
-  // need not be asked.
+  // The other measure may be reached where the error is not the smallest. With an error of zero it
+  // need not be evaluated.
   const bool is_asked = budget_.fclib && !is_enough_ && error > 0.0;
   const bool is_enough = is_asked && budget_.fclib->reached(r, error);
   if (is_enough || ((error < error_ || error_ == unknown) && !is_enough_)) {
@@ -100,7 +100,7 @@ void Course::offer(const Impulses& r, double error) {
   if (budget_.keep_history) remember(count_, seconds(), error_);
 }
 
-/// One point per count of iterations, the last one that was true of it; the errors are of the best.
+/// Keeps one point for each count of iterations, the last one given; errors are the best so far.
 void Course::remember(int iterations, double seconds, double error) {
   if (!history_.empty()) {
     error = std::min(error, history_.back().error);

@@ -1,5 +1,5 @@
 #pragma once
-// The bookkeeping that backends share: budget, clock, when to look at the error, why to stop,
+// The bookkeeping that backends share: budget, clock, when to evaluate the error, why to stop,
 // history.
 
 #include <algorithm>
@@ -13,32 +13,32 @@
 
 namespace ballast {
 
-/// What every solve books: its budget, its clock, iterations, history. The clock starts here.
+/// The bookkeeping of one solve: budget, clock, iterations, history. The constructor starts it.
 class SolveBook {
  public:
   explicit SolveBook(const Budget& budget) : budget_(budget) {}
 
-  int count() const { return count_; }  ///< of iterations
+  int count() const { return count_; }  ///< number of iterations
   double seconds() const { return watch_.seconds() - startup_; }
   bool is_late() const {
     return watch_.has_passed(budget_.max_seconds + startup_) ||
            (budget_.is_cancelled && budget_.is_cancelled());
   }
-  /// Small enough to stop [m/s].
+  /// Returns whether `error` [m/s] is small enough to stop.
   bool reached(double error) const { return error <= budget_.tolerance * (1.0 - stop_margin); }
-  /// So much of the time that has passed was start-up (Solved::startup_seconds): no limit and no
-  /// history counts it.
+  /// Books `seconds` of the past time as start-up (Solved::startup_seconds): neither limits nor
+  /// history count them.
   void add_startup(double seconds) { startup_ += seconds; }
 
  protected:
-  /// Nothing: the solve goes on from an iterate of this error. `is_enough`: it satisfies what the
-  /// budget asks for; `is_late`: the time is over.
+  /// Returns why the solve stops at an iterate of this error; nothing: it goes on. `is_enough`: the
+  /// iterate satisfies what the budget asks for; `is_late`: the time is over.
   std::optional<StopReason> reason_to_stop(double error, bool is_enough, bool is_late) const;
-  /// Of an iterate's error: the first is the start's.
+  /// Takes an iterate's error. The first one is the start's.
   void see(double error) {
     if (std::isnan(start_error_)) start_error_ = error;
   }
-  /// What a backend returns; the history is moved out.
+  /// Returns the result of the backend; moves the history out.
   Solved closed(Impulses impulses, StopReason reason, double error);
 
   Budget budget_;
@@ -50,9 +50,9 @@ class SolveBook {
   double startup_ = 0.0, start_error_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// When the error is evaluated: at `first`, and then after `growth` times as many iterations;
-/// `growth_far` while it was last above `far` tolerances. Of a sweeping method an evaluation costs
-/// more than an iteration, and only near the end does it matter when.
+/// When to evaluate the error: after `first` iterations, then each time after `growth` times as
+/// many, or `growth_far` times while the last error was above far * Budget::aim(). In a sweeping
+/// method an evaluation costs more than an iteration, and its moment matters only near the end.
 struct CheckSchedule {
   static constexpr double far = 8.0;
   int first = 1;
@@ -64,27 +64,27 @@ struct CheckSchedule {
 /// r); } finish(std::move(r));
 class Iteration : public SolveBook {
  public:
-  /// Iterations without any digit of the error changing, after which it never will.
+  /// If no digit of the error changes in so many iterations, it never will: the solve is stalled.
   static constexpr int stalled_after = 1000;
 
   Iteration(const Budget& budget, const CheckSchedule& schedule)
       : SolveBook(budget), schedule_(schedule), next_check_(schedule.first) {}
 
-  /// Opens the next iteration. False when a reason to stop was found: the error of the current
-  /// iterate is then known.
+  /// Begins the next iteration. False: a reason to stop was found; the error of the current iterate
+  /// is then known.
   bool next();
-  /// True when the iterate must be evaluated: by schedule, or because a limit is reached and the
-  /// last error must be its own.
+  /// Returns whether the iterate must be evaluated: by schedule, or because a limit is reached and
+  /// finish() must report the error of the last iterate.
   bool error_due();
-  /// True: evaluated(error) will find a reason to stop, be it the number of iterations or the time.
+  /// True: evaluated(error) will find a reason to stop: the error, the iterations or the time.
   bool ends_with(double error) const {
     return reached(error) || count_ >= budget_.max_iterations || out_of_time_;
   }
   bool is_over() const { return reason_.has_value(); }  ///< a reason to stop was found
-  /// Takes the scaled natural map (rms) of the current iterate `r`, records it, and decides. `r` is
-  /// read where the budget asks for another measure.
+  /// Takes the scaled natural map (rms) of the current iterate `r`, records it, and decides whether
+  /// to stop. `r` is read only if the budget asks for another measure.
   void evaluated(double error, const Impulses& r);
-  /// What a backend returns: `impulses`, with the reason, count, error and history.
+  /// Returns the result of the backend: `impulses` with the reason, count, error and history.
   Solved finish(Impulses impulses) {
     return closed(std::move(impulses), reason_.value_or(StopReason::numerical_failure), error_);
   }
@@ -97,22 +97,22 @@ class Iteration : public SolveBook {
   double error_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The course of one solve whose method wanders, or is several solvers, one after the other: it may
-/// leave its best iterate for a worse one and come back, and returns the best.
+/// The course of one solve whose error may rise in between, or that runs several solvers one after
+/// the other. It keeps the best iterate and returns it.
 ///
-/// Use: run() a solver from the best iterate, or spend() iterations and offer() every iterate that
-/// was judged, until over(); then finish().
+/// Use: run() a solver from the best iterate, or spend() iterations and offer() every iterate whose
+/// error was evaluated, until over(); then finish().
 class Course : public SolveBook {
  public:
-  /// `start` is the best so far.
+  /// `start` is the first best iterate.
   Course(const Budget& budget, Impulses start) : SolveBook(budget), best_(std::move(start)) {}
 
-  /// `solver`, prepared for `problem`, from the best iterate, for at most so many iterations and
-  /// until it `gives_up` (Budget). Its end is kept if it is better, or has reached what was asked,
-  /// with which the course is over.
+  /// Runs `solver`, prepared for `problem`, from the best iterate for at most `most_iterations` or
+  /// until it `gives_up` (Budget). Keeps its result if that is better than the best iterate, or if
+  /// the solver has reached what the budget asks for; then the course is over.
   void run(Solver& solver, const FrictionProblem& problem, int most_iterations,
            decltype(Budget::gives_up) gives_up = {});
-  /// The same of a solver that is prepared when it is first needed; nothing where the course is
+  /// The same for a solver that is prepared when it is first needed. Does nothing if the course is
   /// over.
   void run(LateSolver& way, const FrictionProblem& problem, double most_iterations) {
     if (!over())
@@ -120,16 +120,16 @@ class Course : public SolveBook {
   }
 
   void spend(int iterations) { count_ += iterations; }
-  /// An iterate with its error, evaluated from the impulses alone [m/s]. Kept if it is the best, or
-  /// where it satisfies the other measure that the budget asks for.
+  /// Takes an iterate with its error, evaluated from the impulses alone [m/s]. Keeps it if it is
+  /// the best, or if it satisfies the other measure that the budget asks for.
   void offer(const Impulses& r, double error);
 
   const Impulses& best() const { return best_; }
   double error() const { return error_; }         ///< of the best [m/s]; 1e300 before it is known
   int idle() const { return count_ - best_at_; }  ///< iterations since the best was found
-  /// The best is small enough to stop, or nothing is left of the budget.
+  /// True if the best error is small enough to stop or nothing is left of the budget.
   bool over() const { return end().has_value(); }
-  /// What is left, without Budget::gives_up, which counts from the beginning.
+  /// The rest of the budget without Budget::gives_up, which counts from the beginning of a solve.
   Budget rest() const;
 
   /// The best iterate with counts and the history of the best error; `stalled` where neither the
@@ -143,7 +143,7 @@ class Course : public SolveBook {
   void remember(int iterations, double seconds, double error);
 
   double error_ = unknown;
-  int best_at_ = 0;         ///< iterations
+  int best_at_ = 0;         ///< count() when the best was found
   bool is_enough_ = false;  ///< the best satisfies what the budget asks for
   Impulses best_;
 };

@@ -22,7 +22,7 @@ void MovingContacts::take(const FrictionProblem& problem) {
   delassus_diagonal(problem, diagonal);
   Eigen::VectorXd whole_q;
   free_contact_velocity(problem, whole_q);
-  // The contacts to keep, and where their rows are.
+  // The contacts to keep, and the positions of their rows.
   contact.clear();
   row_begin.assign(1, 0);
   friction.clear();
@@ -72,7 +72,7 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
   Impulses r;
   Eigen::VectorXd last, best;
   double last_error = 0.0;
-  // A foreign solver has stopped by its own measure when the judge looks: that time is not its own.
+  // The foreign solver has stopped before the judge works: the judge's time is not the solver's.
   const auto judged = [&](const Eigen::VectorXd& x) {
     Stopwatch watch;
     last = x;
@@ -85,9 +85,9 @@ Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& mov
   };
   moving.gather(course.best(), best);
   judged(best);
-  // Progress is a tenth less error than when it was last seen.
+  // A round makes progress if the error is a tenth less than at the last progress.
   double from = course.error();
-  int idle = 0;  // rounds without it
+  int idle = 0;  // finished rounds without progress
   while (!course.over() && idle < patience) {
     RoundAnswer answer;
     const Budget left = course.rest();

@@ -1,6 +1,6 @@
 #pragma once
-// What foreign solvers are handed, the problem in impulses alone without the contacts that no
-// impulse moves, and the outer loop that calls them again and again until the judge is content.
+// The problem that foreign solvers get, in impulses alone and without the contacts that no impulse
+// moves, and the outer loop that calls a foreign solver until the judge's error meets the budget.
 
 #include <functional>
 #include <vector>
@@ -9,19 +9,19 @@
 
 namespace ballast {
 
-/// The entries of w in these rows and these columns.
+/// Returns the entries of w in the rows `row` and the same columns.
 SparseRows chosen(const SparseRows& w, const std::vector<int>& row);
 
-/// u = w r + q over the contacts kept, in the problem's order. The others (W_cc = 0: both bodies
-/// fixed) have any impulse for a solution; they get zero.
+/// u = w r + q over the contacts kept, in the problem's order. Any impulse solves the others
+/// (W_cc = 0: both bodies fixed); they get zero.
 struct MovingContacts {
   std::vector<int> contact;       ///< number in the problem of each contact kept
   std::vector<int> row_begin{0};  ///< rows of contact k here; size kept + 1
   std::vector<double> friction;
   std::vector<double> lambda_max;  ///< of W_cc, > 0 [1/kg]
-  SparseRows w;                    ///< as it is: a stored one may be unsymmetric
+  SparseRows w;                    ///< as the problem gives it: a stored W may be unsymmetric
   Eigen::VectorXd q;
-  std::vector<int> row;  ///< in the problem, of each row here
+  std::vector<int> row;  ///< number in the problem of each row here
   int problem_rows = 0;
 
   void take(const FrictionProblem& problem);
@@ -45,24 +45,24 @@ struct RoundRequest {
 };
 
 struct RoundAnswer {
-  Eigen::VectorXd x;      ///< not finite or empty: the round failed, and nothing is taken from it
-  int iterations = 1;     ///< what the round cost; 1 at least is booked
+  Eigen::VectorXd x;      ///< not finite or empty: the round failed, and x is ignored
+  int iterations = 1;     ///< of the round; at least 1 is booked
   double seconds = -1.0;  ///< wall clock of the foreign solver's own work; the rest of the round is
                           ///< start-up. Negative: all of the round is its work
-  bool finished = true;   ///< ended by its own criterion, not by a limit: a failure to improve
-                          ///< counts as standing still
+  bool finished = true;   ///< ended by its own criterion, not by a limit: then a round without
+                          ///< improvement counts towards `patience`
 };
 
-/// `call` in a child process (platform/program.hpp), as it may crash, hang or leak; here
-/// where this process is a comparison's child, which may be lost and stays warm. Of the answer x,
-/// iterations and seconds come back. False: there is none within what is `left`, or the solve was
+/// Runs `call` in a child process (platform/program.hpp), as it may crash, hang or leak; in this
+/// process if it is a comparison's child, which may be lost and stays warm. Of the answer, x,
+/// iterations and seconds come back. False: no answer came within `left`, or the solve was
 /// cancelled.
 bool answer_apart(const Budget& left, const std::function<bool(RoundAnswer&)>& call,
                   RoundAnswer& answer);
 
-/// Rounds until the judge's error of the best iterate, which is what is returned, meets the budget;
-/// `stalled` when `patience` finished rounds in a row brought no tenth of improvement. The judge is
-/// asked after every round; its time is start-up.
+/// Calls `round` until the judge's error of the best iterate meets the budget, and returns that
+/// iterate; `stalled` when `patience` finished rounds after another bring no tenth less error. The
+/// judge evaluates every round's result; its time is start-up.
 Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& moving, Impulses start,
                        const Budget& budget, int patience,
                        const std::function<void(const RoundRequest&, RoundAnswer&)>& round);

@@ -11,10 +11,10 @@
 namespace ballast {
 namespace {
 
-/// `growth` of a judged answer beyond which r is said to grow without bound.
+/// With a `growth` of a judged answer beyond this, r counts as growing without bound.
 constexpr double unbounded_growth = 1e8;
 
-/// Empty means zero. Throws InvalidProblem, naming the entry.
+/// Makes an empty start zero. Throws InvalidProblem, naming the entry.
 void validate_start(const FrictionProblem& problem, Impulses& start) {
   if (start.size() == 0) start.setZero(problem.row_count());
   if (start.size() != problem.row_count())
@@ -28,7 +28,7 @@ void validate_start(const FrictionProblem& problem, Impulses& start) {
           (std::isfinite(start[i]) ? printed("beyond %g", largest_entry) : "not finite"));
 }
 
-/// The first part of the law that the answer misses.
+/// Names the first part of the law that the answer misses.
 std::string what_is_missed(const ContactError& error, double tolerance) {
   if (!error.finite) return "the impulses, or velocities that they give, are not finite";
   const auto missed = [](const char* part, double value, double bound) {
@@ -51,12 +51,12 @@ Verdict verdict_of(StopReason reason, const ContactError& error, double toleranc
   const bool grows = error.finite && error.growth > unbounded_growth;
   if (by_fclib ? error.finite && error.fclib <= tolerance && !grows : error.within(tolerance))
     return claimed ? Verdict::solved : Verdict::unsolved;
-  // No impulse helps, or those that were tried have left every scale of the problem. Siconos'
-  // tolerance is a pure number; contacts that sink in are measured in m/s.
+  // No solution: no impulse helps, or the impulses have left every scale of the problem. Siconos'
+  // tolerance is a pure number; the approach of contacts is measured in m/s.
   const double approach = by_fclib ? tolerance * error.velocity_scale : tolerance;
   const bool sinks = error.finite && error.immovable_approach > approach;
   if (sinks || (grows && !began_large)) return Verdict::no_solution;
-  // Nobody can claim a tolerance of 0: it asks for none.
+  // A tolerance of 0 asks for no accuracy, so there is no claim to deny.
   return claimed && tolerance > 0.0 ? Verdict::denied : Verdict::unsolved;
 }
 
@@ -66,7 +66,7 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
   constexpr int sweeps = 500;
   const double left = max_seconds - run.prepare_seconds - run.startup_seconds - run.solve_seconds;
   const NoSolution proof = look_for_no_solution(problem, run.solved.impulses, sweeps, left);
-  // Sinking in by less than what is tolerated is no reason.
+  // An approach below the tolerance is no proof.
   if (proof.proved() && proof.approach > tolerance) {
     run.verdict = Verdict::no_solution;
     return proof.words();
@@ -83,8 +83,8 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
                  run.error.growth);
 }
 
-/// One call of the solver within what is left, and what came of it: judged from the impulses alone,
-/// outside the stopwatch, whatever they are. No verdict yet.
+/// Calls the solver once within `left`. Whatever impulses it returns are judged, from the impulses
+/// alone and outside the stopwatch. Gives no verdict.
 SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, Impulses start,
                                 const Budget& left, bool prepares) {
   SolverRun run;
@@ -106,7 +106,7 @@ SolverRun SolverRunner::attempt(Solver& solver, const FrictionProblem& problem, 
     run.failure = error.what();
     run.solve_seconds = watch.seconds();
   }
-  // A backend that failed may return nothing; no impulses is then what is judged.
+  // A backend that failed may return nothing: zero impulses are judged then.
   if (run.solved.impulses.size() != problem.row_count()) {
     run.solved.impulses.setZero(problem.row_count());
     run.solved.reason = StopReason::numerical_failure;
@@ -119,7 +119,7 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
                             const Budget& budget) {
   problem.validate(&judge_.masses(), team_);
   validate_start(problem, start);
-  constexpr double much = 10.0;  // times the start: less is no growth
+  constexpr double much = 10.0;  // up to this many times the start is no growth
   const double much_larger = much * start.lpNorm<Eigen::Infinity>();
   const auto decide = [&](SolverRun& run) {
     const bool began_large = run.error.growth > unbounded_growth &&
@@ -131,15 +131,15 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
   SolverRun run = attempt(solver, problem, std::move(start), budget, true);
   decide(run);
   if (budget.fclib) return run;  // its measure alone decides
-  // Rounds to smaller natural maps while the solver keeps its word and the other parts of the law
-  // are missed. Given up where the impulses leave every scale: no solver helps then.
+  // Rounds to smaller natural maps while the solver reaches its tolerance but misses other parts of
+  // the law. Impulses that leave every scale end them: no solver helps then.
   constexpr int most_rounds = 6;
   constexpr double aim = 0.5, largest_fall = 1e-3;  // of the bound; of the natural map in a round
   double target = budget.tolerance;
   for (int round = 0; round < most_rounds && run.verdict == Verdict::denied; ++round) {
     const ContactError& error = run.error;
     if (!error.finite || error.natural_map_rms > budget.tolerance) break;
-    // As far below as the worst part is above its bound.
+    // The target falls by the factor by which the worst part is above `aim` times its bound.
     const double worst = std::max({error.approach_rms, error.cone_rms, error.complementarity_rms});
     const double ratio = ContactError::bound_factor * budget.tolerance / worst;
     target = std::min(target, error.natural_map_rms) * std::max(aim * ratio, largest_fall);
@@ -154,7 +154,7 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
     left.tolerance = target;
     SolverRun next = attempt(solver, problem, run.solved.impulses, left, false);
     decide(next);
-    // The tolerance that was asked for decides. Booked as one solve.
+    // The tolerance of the budget decides. Both attempts are booked as one solve.
     if (next.error.within(budget.tolerance)) {
       next.solved.reason = StopReason::reached_tolerance;
       next.verdict = Verdict::solved;

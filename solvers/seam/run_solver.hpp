@@ -1,6 +1,6 @@
 #pragma once
-// The only door to a solver that runs and benches use: validates, times, judges outside the
-// stopwatch, and says what came of it.
+// The only way in which runs and benches call a solver: validates the problem, times the solver,
+// judges its answer outside the stopwatch, and gives the verdict.
 
 #include <string>
 
@@ -12,8 +12,8 @@ namespace ballast {
 struct SolverRun {
   Solved solved;
   ContactError error;          ///< the judge's, never the backend's
-  double prepare_seconds = 0;  ///< wall clock of prepare(), and of solve() without its start-up
-  double solve_seconds = 0;
+  double prepare_seconds = 0;  ///< wall clock of prepare()
+  double solve_seconds = 0;    ///< wall clock of solve() without its start-up
   double startup_seconds = 0;  ///< of solve(): Solved::startup_seconds of all its rounds
   Verdict verdict = Verdict::unsolved;
   std::string failure;  ///< what() of the exception that a backend threw; empty: none
@@ -21,18 +21,18 @@ struct SolverRun {
   bool is_solved() const { return verdict == Verdict::solved; }
 };
 
-/// Of impulses with that error, which a solver returned for that reason under that tolerance [m/s].
-/// `by_fclib`: the tolerance is one of Siconos' measure (ContactError::fclib), which alone decides.
-/// But it divides by |r|, so that what grows without bound meets it: that is no solution.
-/// `began_large`: the start was about as large as the impulses, so their size proves nothing.
+/// The verdict on impulses with `error` that a solver returned for `reason` under `tolerance`
+/// [m/s]. `by_fclib`: the tolerance is one on Siconos' measure (ContactError::fclib), which alone
+/// decides; but it divides by |r|, so impulses that grow without bound meet it: they are no
+/// solution. `began_large`: the start was about as large as they are, so their size proves nothing.
 Verdict verdict_of(StopReason reason, const ContactError& error, double tolerance,
                    bool by_fclib = false, bool began_large = false);
 
-/// What came of a run under that tolerance [m/s], in one line: "solved", "the judge denies it: -u_N
-/// is 0.3 m/s (rms), at most 4e-08 may be", "no solution found; r grows without bound: ...". What
-/// is not solved is searched for a proof that there is no solution, which changes the verdict
-/// (look_for_no_solution: builds W, so never within a step).
-/// The search has what the run left of max_seconds.
+/// Returns one line on the result of a run under `tolerance` [m/s]: "solved", "the judge denies it:
+/// -u_N is 0.3 m/s (rms), at most 4e-08 may be", "no solution found; r grows without bound: ...".
+/// For a run that is not solved it searches a proof that there is no solution, within what the run
+/// left of max_seconds, and a proof changes the verdict (look_for_no_solution: builds W, so never
+/// call this within a step).
 std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance,
                       double max_seconds = 1e30);
 
@@ -46,12 +46,12 @@ class SolverRunner {
     judge_.use_team(team);
   }
 
-  /// Of the last run: what the judge found besides.
+  /// The body velocities and impulses that the judge computed in the last run.
   const Eigen::VectorXd& body_velocity() const { return judge_.body_velocity(); }
   const Eigen::VectorXd& body_impulse() const { return judge_.body_impulse(); }
 
-  /// A solver stops on the natural map. Where that is reached and another part of the law is not
-  /// (much friction), it goes on from its answer to a smaller natural map, within the same budget.
+  /// Runs `solver`, which stops on the natural map. If its answer misses another part of the law
+  /// (much friction), it goes on from there to a smaller natural map, within the same budget.
   ///
   /// Throws InvalidProblem (before the solver sees it), UnsupportedProblem, LostProcess. A start of
   /// the wrong size, or with an entry beyond largest_entry, is an InvalidProblem; an empty one

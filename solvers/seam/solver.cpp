@@ -39,7 +39,7 @@ Budget Budget::after(int iterations, double seconds) const {
 }
 
 void Solved::go_on(Solved next, double seconds) {
-  // What `next` says of the place where both meet replaces what was known.
+  // Where the histories meet, the point of `next` replaces the last point of this one.
   if (!history.empty() && !next.history.empty() &&
       history.back().iteration == iterations + next.history.front().iteration)
     history.pop_back();

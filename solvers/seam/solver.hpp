@@ -1,5 +1,5 @@
 #pragma once
-// The seam between problems and algorithms.
+// The interface between problems and solvers.
 
 #include <functional>
 #include <limits>
@@ -12,7 +12,7 @@
 
 namespace ballast {
 
-/// Why a solver stopped. Says nothing about accuracy: contact_error does.
+/// Why a solver stopped. It says nothing about accuracy: contact_error() does.
 enum class StopReason {
   reached_tolerance,
   iteration_limit,
@@ -21,23 +21,23 @@ enum class StopReason {
   numerical_failure
 };
 
-/// What came of a solve: the solver's word and the judge's together, or what else became of it.
+/// The result of a solve: the solver's claim and the judge's finding, or how the solve failed.
 enum class Verdict {
   solved,         ///< the solver says so and the judge agrees on every part of the law
-  unsolved,       ///< stopped before: standing still, a limit, a failure
+  unsolved,       ///< the solver stopped before: stalled, at a limit, or by a failure
   denied,         ///< the solver says that it is solved, and the judge does not agree
   no_solution,    ///< r grows without bound, or it is proved that no impulses are a solution
   timeout,        ///< over the time limit of a comparison, by itself or killed
   crashed,        ///< the process that solved died
   out_of_memory,  ///< allocation refused under the memory limit
   unsupported,    ///< the backend says that it cannot take the problem
-  unreadable,     ///< there was no problem to be had: no backend was tried
+  unreadable,     ///< the problem could not be loaded: no backend was tried
 };
 inline constexpr const char* verdict_names[] = {"solved",        "unsolved",    "denied",
                                                 "no_solution",   "timeout",     "crashed",
                                                 "out_of_memory", "unsupported", "unreadable"};
 
-/// The law that a backend really solves; each one is judged on Coulomb's.
+/// The law that a backend solves. All backends are judged on Coulomb's law.
 enum class ContactLaw { coulomb, convex_relaxation };
 
 const char* name_of(StopReason reason);
@@ -47,23 +47,23 @@ const char* name_of(ContactLaw law);
 /// Solvers stop a hair below a tolerance: the judge sums in another order than a backend does.
 inline constexpr double stop_margin = 1e-3;
 
-/// Siconos' measure of an answer (ContactError::fclib, by the judge) as a reason to stop, for
-/// whoever evaluates errors. How it stands to the natural map changes while impulses grow, so no
-/// tolerance on the one can stand for a tolerance on the other.
+/// Siconos' measure of an answer (ContactError::fclib, by the judge) as a reason to stop, for code
+/// that evaluates errors. Its ratio to the natural map changes while impulses grow, so that no
+/// tolerance on one of them can replace a tolerance on the other.
 class FclibStop {
  public:
-  /// `problem` outlives it.
+  /// `problem` must outlive this object.
   FclibStop(const FrictionProblem& problem, double tolerance)
       : problem_(&problem), tolerance_(tolerance) {}
 
   double tolerance() const { return tolerance_; }
-  /// The measure is small enough to stop. `natural_map` of the same impulses [m/s] says whether a
-  /// look is worth its cost: not while it is neither half of what it was at the last look nor near
-  /// the aim. The first looks are always taken. Throws InvalidProblem for a mass block that is not
-  /// positive definite.
+  /// Returns whether the measure is small enough to stop. After the first few calls it is worth its
+  /// cost, and is evaluated, only if `natural_map` (of the same impulses) [m/s] is at most half of
+  /// its value at the last evaluation or near the aim. Throws InvalidProblem for a mass block that
+  /// is not positive definite.
   bool reached(const Impulses& r, double natural_map);
-  /// Where the natural map should stand when the measure is reached [m/s], from the last look;
-  /// infinite before the first.
+  /// The natural map at which the measure should be reached [m/s], estimated at the last
+  /// evaluation; infinite before the first.
   double aim() const { return aim_; }
 
  private:
@@ -78,7 +78,7 @@ class FclibStop {
   ContactJudge judge_;
 };
 
-/// When to stop. The error meant is the judge's scaled natural map, rms over contacts, in m/s
+/// When to stop. "The error" is the judge's scaled natural map, rms over contacts, in m/s
 /// (contact_error.hpp).
 struct Budget {
   double tolerance = 1e-8;     ///< [m/s]; 0: run until another limit
@@ -86,21 +86,21 @@ struct Budget {
   double max_seconds = 1e30;   ///< wall clock
   /// Record (iteration, seconds, error) at every evaluation of the error.
   bool keep_history = false;
-  /// Not null: solvers stop on this measure as well, wherever they evaluate the error. One object
+  /// Not null: solvers also stop on this measure, wherever they evaluate the error. One object
   /// serves one solve.
   FclibStop* fclib = nullptr;
-  /// Not empty: an Iteration (seam/iteration.hpp) tells it the iterations and the error [m/s] at
-  /// every look; true ends the solve as stalled. For who has something better to do with the rest
-  /// of the budget. A Course does not ask.
+  /// Not empty: an Iteration (seam/iteration.hpp) calls it with the iterations and the error [m/s]
+  /// at every evaluation; true ends the solve as stalled. For callers that have a better use for
+  /// the rest of the budget. A Course does not call it.
   std::function<bool(int iterations, double error)> gives_up = {};
 
   /// Not empty: asked together with the clock; true ends the solve as if its time were over.
   std::function<bool()> is_cancelled = {};
 
-  /// The natural map to plan for [m/s]: the tolerance, or where `fclib` expects its own to be
-  /// reached.
+  /// The natural map to plan for [m/s]: the tolerance, or the natural map at which `fclib` expects
+  /// its measure to be reached.
   double aim() const;
-  /// What is left after so many iterations and seconds; never less than nothing.
+  /// The budget left after so many iterations and seconds; never negative.
   Budget after(int iterations, double seconds) const;
 };
 
@@ -110,21 +110,21 @@ struct HistoryPoint {
   double error;    ///< scaled natural map rms [m/s]
 };
 
-/// What a backend returns. Its own residual is recorded beside the judge's, never used as evidence.
+/// A backend's result. Its own residual is recorded beside the judge's, never used as evidence.
 struct Solved {
   Impulses impulses;
   StopReason reason = StopReason::numerical_failure;
   int iterations = 0;
   double own_residual = 0.0;
-  /// Scaled natural map (rms) of the start and of `impulses`, as the method saw it; NaN: it did
-  /// not.
+  /// Scaled natural map (rms) of the start and of `impulses`, as the method evaluated it; NaN: it
+  /// did not.
   double start_error = std::numeric_limits<double>::quiet_NaN(), end_error = start_error;
-  /// Wall clock of solve() that is not the method's: processes started for a foreign library,
-  /// problems converted to its form, its answers judged.
+  /// Wall clock of solve() that is not the method's: starting processes for a foreign library,
+  /// converting problems to its form, judging its answers.
   double startup_seconds = 0.0;
   std::vector<HistoryPoint> history;
 
-  /// Books both as one: `next` began where this one ended, so many seconds after its beginning.
+  /// Books both as one: `next` began where this one ended, `seconds` after this one began.
   void go_on(Solved next, double seconds);
 };
 
@@ -134,7 +134,7 @@ class UnsupportedProblem : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The process that works for a backend is gone; what() says how.
+/// The process that works for a backend was lost; what() says how.
 class LostProcess : public std::runtime_error {
  public:
   LostProcess(const std::string& what, bool ran_out_of_time)
@@ -147,19 +147,18 @@ class LostProcess : public std::runtime_error {
 class Solver {
  public:
   virtual ~Solver() = default;
-  /// Allocation, ordering, symbolic and numeric factorisation: timed apart from solve(). Throws
-  /// UnsupportedProblem.
+  /// Allocation, ordering, symbolic and numeric factorisation: timed separately from solve().
+  /// Throws UnsupportedProblem.
   virtual void prepare(const FrictionProblem& problem) = 0;
-  /// Whose members prepare() and solve() may use from now on; null: the caller alone. The same bits
-  /// whatever their number; a backend that has no use for more than one ignores it.
+  /// Sets the team that prepare() and solve() may use; null: the caller alone. Results have the
+  /// same bits whatever its size. A backend that has no use for more than one thread ignores it.
   virtual void use_team(WorkerTeam* /*team*/) {}
-  /// `start` is the first iterate (zero: cold) and is moved through: its storage comes back as
-  /// Solved::impulses, so that a run of many steps does not allocate. `problem` is the one given to
-  /// prepare().
+  /// `start` is the first iterate (zero: cold start). Its storage comes back as Solved::impulses,
+  /// so that a run of many steps does not allocate. `problem` is the one given to prepare().
   virtual Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) = 0;
 };
 
-/// A solver that another one may do without: prepared when its turn comes, as ordering is dear.
+/// A solver that another one may not need: prepared at its first use, as ordering is expensive.
 struct LateSolver {
   std::unique_ptr<Solver> solver;
   bool is_prepared = false;
@@ -171,7 +170,7 @@ struct LateSolver {
   }
 };
 
-/// Makes one backend, with the settings that its row in the list stands for.
+/// Makes one backend with the settings of its row in the list.
 using SolverMaker = std::unique_ptr<Solver> (*)();
 
 }  // namespace ballast

@@ -1,4 +1,4 @@
-// The page of a comparison in a real browser: what the reader asks, and what the page then holds.
+// The page of a comparison in a real browser: the tests ask as a reader does and check the page.
 
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/page/html.hpp"
@@ -45,16 +45,16 @@ struct HandMadeComparison {
   const TemporaryFolder place;
   std::vector<CompareRow> rows;
 };
-/// One for all tests of a process.
+/// The comparison that all tests of a process share.
 const HandMadeComparison& hand_made() {
   static const HandMadeComparison made;
   return made;
 }
 
-/// No library, no answers: the page says so, which html_test reads.
+/// True without a browser or without the library that draws charts (html_test has that case).
 bool is_missing() { return Browser::is_missing() || !page::can_answer(); }
 
-/// The cells of a table's body, rows by "|".
+/// The cells of the table's body as text, rows separated by "|".
 Json cells(Browser& browser, const std::string& table) {
   return browser.js("[...document.querySelectorAll('" + table +
                     " tbody tr')].map((r) => [...r.cells].map((c) => c.innerText.trim()).join("
@@ -65,7 +65,7 @@ std::string pressed(const std::string& selector) {
   return "document.querySelector(`" + selector + "`).click()";
 }
 
-/// Where a point of a chart is in the window; the chart is brought into it.
+/// Scrolls the chart into the window. Returns where the point lies in the window.
 Json place_of(Browser& browser, const std::string& canvas, int curve, int point) {
   return browser.js(
       printed("(() => { const c = document.querySelector('%s'); c.scrollIntoView({"
@@ -82,22 +82,22 @@ TEST_CASE("tables in the browser are what the program computed, sort, and follow
   const HandMadeComparison& made = hand_made();
   Browser browser(1400, 900);
   browser.open(made.page(), "", is_drawn);
-  // the program wrote the same table into the page, for readers without scripts
+  // The program wrote the same table into the page, for readers without scripts.
   const Json live = cells(browser, "#backends .live");
   CHECK(live == browser.js("[...document.querySelector('#backends > .scroll').querySelectorAll("
                            "'tbody tr')].map((r) => [...r.cells].map((c) => c.textContent.trim())"
                            ".join(' ')).join('|')"));
   CHECK_THAT(live.get<std::string>(), Catch::StartsWith("b coulomb 3 of 3 "));
-  // by the backend's name, then backwards
+  // Sorts by the backend's name, then backwards.
   browser.js(pressed("#backends .live th button"));
   CHECK_THAT(cells(browser, "#backends .live").get<std::string>(), Catch::StartsWith("a "));
   browser.js(pressed("#backends .live th button"));
   CHECK_THAT(cells(browser, "#backends .live").get<std::string>(), Catch::StartsWith("c "));
-  // without the large ones every backend solves all; the order by name stays
+  // Without the large problems every backend solves all; the order by name stays.
   browser.js(pressed("[name=without_family][value=large]"));
   CHECK_THAT(cells(browser, "#backends .live").get<std::string>(),
              Catch::StartsWith("c coulomb 1 of 1"));
-  // the address keeps the order too, and columns that say nothing are not shown
+  // The address keeps the order too. Columns without information are hidden.
   const std::string kept = browser.js("location.hash.slice(1)");
   CHECK(browser.js("[...document.querySelectorAll('#backends .live th')].some((h) => h.hidden && "
                    "h.textContent === 'crashes')") == true);
@@ -105,7 +105,7 @@ TEST_CASE("tables in the browser are what the program computed, sort, and follow
   CHECK_THAT(cells(browser, "#backends .live").get<std::string>(),
              Catch::StartsWith("c coulomb 1 of 1"));
   browser.js(pressed("[name=without_family][value=large]"));
-  // sizes, and words of the name
+  // Filters by size, and by words of the name.
   browser.open(made.page(), "from=15&to=100", is_drawn);
   CHECK(browser.js("document.querySelectorAll('#matrix .live tbody tr').length") == 1);
   browser.open(made.page(), "find=Z3&tolerance=1e-06", is_drawn);
@@ -122,14 +122,14 @@ TEST_CASE("profiles are computed for the chosen backends and cases") {
       "JSON.stringify(Chart.getChart(document.querySelector('#profiles canvas')).data.datasets"
       ".map((d) => [d.label, ...d.data.slice(1, -1).map((p) => [+p.x.toFixed(3), "
       "+p.y.toFixed(3)])]))";
-  // a: as fast as anybody on x, half as fast on y and z
+  // a is as fast as the fastest on x, half as fast on y and z.
   CHECK(Json::parse(browser.js(curve).get<std::string>())[0] ==
         Json::parse(R"(["a", [1, 0.333], [2, 0.667], [2, 1]])"));
   browser.js(pressed("[name=without][value=b]"));
   CHECK(Json::parse(browser.js(curve).get<std::string>()) ==
         Json::parse(
             R"([["a", [1, 0.333], [1, 0.667], [1, 1]], ["c", [1.75, 0.333], [1.75, 0.667]]])"));
-  // the address keeps it
+  // The address keeps the choice.
   const std::string kept = browser.js("location.hash.slice(1)");
   CHECK(kept == "without=b");
   browser.open(made.page(), kept, is_drawn);
@@ -158,7 +158,7 @@ TEST_CASE("a point tells its values, and a click opens its solve with the comman
   CHECK(browser.js("document.querySelectorAll('dialog canvas').length") == 1);
   browser.key("Escape");
   CHECK(browser.js("document.querySelector('dialog').open") == false);
-  // by the keyboard alone: the third point of the first curve, then the next curve
+  // With the keyboard alone: selects the third point of the first curve, then the next curve.
   browser.js("document.querySelector('#cost canvas').focus()");
   for (const char* key : {"ArrowRight", "ArrowRight", "ArrowDown", "Enter"}) browser.key(key);
   CHECK(browser.js("location.hash") == "#row=y2b4");
@@ -189,7 +189,7 @@ TEST_CASE("legends switch a curve off everywhere, and the rows are saved as they
   CHECK(browser.js("[...document.querySelectorAll('.live canvas')].some((c) => { const h = "
                    "Chart.getChart(c); return h.data.datasets.some((d, k) => d.label === 'a' && "
                    "h.isDatasetVisible(k)); })") == false);
-  // the switched curve does not change what others are measured against
+  // A hidden curve stays among those that the others are measured against.
   CHECK_THAT(cells(browser, "#backends .live").get<std::string>(), Contains("a coulomb 3 of 3"));
   browser.js(
       "URL.createObjectURL = (blob) => { window.saved = blob; return '#' + "

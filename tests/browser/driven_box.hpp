@@ -1,5 +1,5 @@
 #pragma once
-// A run's page as the tests in a browser use it: a small box that was driven, and its controls.
+// The page of a run, as the tests in a browser use it: a small driven box, and its controls.
 
 #include <filesystem>
 #include <string>
@@ -14,7 +14,7 @@ namespace ballast {
 
 inline constexpr const char* is_ready = "window.ballastReplay || window.ballastReplayError";
 
-/// A small box that was driven for 20 ms, with its page and its record: driven_box().
+/// A small box that was driven for 20 ms, with its page and its record. driven_box() makes it.
 struct DrivenBox {
   DrivenBox() {
     RunOptions options;
@@ -36,13 +36,13 @@ struct DrivenBox {
   std::vector<StepRecord> steps;
 };
 
-/// One for all tests of a process.
+/// The box that all tests of a process share.
 inline const DrivenBox& driven_box() {
   static const DrivenBox box;
   return box;
 }
 
-/// JavaScript: the picture of a stage as bytes, red green blue alpha, the lowest row first.
+/// JavaScript: the picture of a stage as bytes (red, green, blue, alpha), the lowest row first.
 inline std::string pixels_of(const std::string& stage = "ballastReplay.stages[0]") {
   return R"(((stage) => {
     const { gl, canvas } = stage, bytes = new Uint8Array(4 * canvas.width * canvas.height);
@@ -55,7 +55,7 @@ inline std::string pixels_of(const std::string& stage = "ballastReplay.stages[0]
          ")";
 }
 
-/// A number that is another for every other picture.
+/// A checksum of the picture: different pictures give different numbers.
 inline Browser::Json picture(Browser& browser) {
   return browser.js(pixels_of() + ".bytes.reduce((sum, v, k) => (sum + v * (k % 9973)) % 1e9, 0)");
 }

@@ -1,4 +1,4 @@
-// Figures and tables of any page in a real browser.
+// The figures and tables of any page in a real browser.
 
 #include "experiments/page/html.hpp"
 #include "experiments/page/plot.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using Json = Browser::Json;
 
-/// Two curves in one place, and a table as wide as the paper's.
+/// A page with two curves in one panel, and a table as wide as the paper's.
 page::Page wide_page() {
   page::Picture picture;
   Panel panel{.x_label = "x", .y_label = "y", .y_min = 0.0, .y_max = 2.0};
@@ -20,7 +20,7 @@ page::Page wide_page() {
       {.x = x, .y = y, .title = "below", .ink = Ink::blue, .width = 2.0},
       {.x = x, .y = y, .title = page::marked("above *f*~g~"), .ink = Ink::vermilion, .width = 4.0}};
   panel.lines = {{1.5, page::marked("asked: *x*")}};
-  // two pieces: what is between them has neither x nor y
+  // The curve has two pieces: the point between them has neither x nor y.
   const double none = std::nan("");
   panel.curves.push_back({.x = {0, 0.5, none, 1.5, 2},
                           .y = {0.5, 0.5, none, 0.5, 0.5},
@@ -40,7 +40,7 @@ page::Page wide_page() {
   return page;
 }
 
-/// A page of one figure that answers.
+/// A page with one figure that answers.
 std::filesystem::path page_of(const Panel& panel, const std::string& name,
                               const TemporaryFolder& folder) {
   page::Picture picture;
@@ -68,14 +68,14 @@ TEST_CASE("later curves stand above earlier ones, and no column is cut where the
                    "y.getPixelForValue(1), 1, 1).data]; })()") == Json{0xd5, 0x5e, 0x00, 0xff});
   CHECK(browser.js("[...document.querySelectorAll('.switch')].map((s) => s.textContent)") ==
         Json{"below", "above f_g", "pieces"});
-  // a curve is broken where it has no value
+  // The curve is interrupted where it has no value.
   for (const auto& [x, is_drawn] : {std::pair{0.25, true}, {0.95, false}, {1.75, true}})
     CHECK(browser.js(printed("(() => { const c = Chart.getChart(document.querySelector('#two "
                              "canvas')), { x, y } = c.scales; return c.ctx.getImageData("
                              "x.getPixelForValue(%g), y.getPixelForValue(0.5), 1, 1).data[3] === "
                              "255; })()",
                              x)) == is_drawn);
-  // words stand above the line, in the colour of what is aside
+  // The words stand above the line, in the soft colour.
   CHECK(browser.js("(() => { const c = Chart.getChart(document.querySelector('#two canvas')), "
                    "y = c.scales.y.getPixelForValue(1.5), right = c.chartArea.right; const b = "
                    "c.ctx.getImageData(right - 60, y - 15, 56, 12).data; let dark = 0; "
@@ -121,7 +121,7 @@ TEST_CASE("the figures of a run tell the values under the pointer") {
   browser.wait_for(
       "document.querySelector('#error canvas') && "
       "Chart.getChart(document.querySelector('#error canvas'))");
-  // the rms error of the tenth step
+  // Points at the rms error of the tenth step.
   const Json spot = browser.js(
       "(() => { const c = document.querySelector('#error canvas'); c.scrollIntoView({block: "
       "'center'}); const p = Chart.getChart(c).getDatasetMeta(1).data[9], b = "
@@ -130,7 +130,7 @@ TEST_CASE("the figures of a run tell the values under the pointer") {
   browser.wait_for("document.querySelector('#error .said').textContent.includes('rms')");
   const std::string said = browser.js("document.querySelector('#error .said').textContent");
   CHECK_THAT(said, Catch::Contains(printed("t %.3g", box.steps[9].time)));
-  // tables in groups keep their order; others sort
+  // Tables in groups keep their order; other tables can be sorted.
   CHECK(browser.js("document.querySelectorAll('#results .sort').length") == 0);
   CHECK(browser.js("document.querySelectorAll('#cost-table .sort').length") == 3);
   CHECK(browser.js("document.scrollingElement.scrollWidth") == 1400);

@@ -1,4 +1,4 @@
-// A run's page in a real browser: what the reader does, and what the page then holds and shows.
+// The page of a run in a real browser: acts as a reader does and checks the page and its picture.
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 using Json = Browser::Json;
 using Catch::Matchers::Contains;
 
-/// The picture's pixels that `test` (an expression of r, g, b: 0 to 255) holds of: how many, and
-/// between which columns.
+/// The share of the picture's pixels for which `test` (an expression of r, g, b: 0 to 255) holds,
+/// and the first and last column with such pixels.
 Json pixels(Browser& browser, const std::string& test) {
   return browser.js("(() => { const { width, height, bytes } = " + pixels_of() + R"(;
     let count = 0, first = width, last = -1;
@@ -47,7 +47,7 @@ TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to t
   REQUIRE(browser.js("window.ballastReplayError || ''") == "");
   REQUIRE(browser.js("ballastReplay.data.times.length") == box.frames.size());
   const auto time = [&] { return browser.js("ballastReplay.time").get<double>(); };
-  // the poses that the page unpacks are the record's
+  // The poses that the page unpacks are those of the record.
   for (const size_t f : {size_t{0}, box.frames.size() - 1}) {
     const Json state =
         browser.js(printed("(ballastReplay.data.moveTo(%.17g, () => 0), "
@@ -71,7 +71,7 @@ TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to t
   CHECK(std::abs(time() - 0.011) < 1e-6);
   browser.js(clicked("back"));
   CHECK(std::abs(time() - 0.010) < 1e-9);
-  // by the keyboard: the picture has the focus
+  // With the keyboard: the picture has the focus.
   browser.js("document.getElementById('replay-canvas').focus()");
   browser.js("ballastReplay.rate = 0.01");
   browser.key(" ", " ");
@@ -81,7 +81,7 @@ TEST_CASE("a run's page plays, steps and scrubs, and a click in a plot goes to t
   CHECK(browser.js("ballastReplay.playing") == false);
   browser.key(".", ".");
   CHECK(std::abs(std::remainder(time(), 0.002)) < 1e-9);
-  // the middle of the first plot is the middle of the run
+  // A click on the middle of the first plot goes to the middle of the run.
   browser.js("document.getElementById('replay-plots').scrollIntoView()");
   const Json spot = browser.js(
       "(() => { const p = ballastReplay.plots.panels[0], b = p.picture.getBoundingClientRect(); "
@@ -99,7 +99,7 @@ TEST_CASE("the driven wall stands where steps.csv says, within a pixel's worth")
   for (const size_t k : {size_t{9}, box.steps.size() - 1}) {
     const StepRecord& step = box.steps[k];
     browser.js(printed("ballastReplay.setTime(%.17g)", step.time));
-    // blue is the wall alone; seen from the side it is a line between its near and its far edge
+    // Only the wall is blue. Seen from the side it is a line between its near and its far edge.
     const Json blue = pixels(browser, "b > r + 60 && b > g + 20");
     const double x = 0.2 + step.wall_x;
     const Json edges = browser.js(
@@ -113,7 +113,7 @@ TEST_CASE("the driven wall stands where steps.csv says, within a pixel's worth")
     CHECK(std::abs(blue["last"].get<double>() + 0.5 - edges[1].get<double>()) < 2.5);
     columns.insert(blue["last"].get<int>());
   }
-  CHECK(columns.size() == 2);  // it has moved by more than that
+  CHECK(columns.size() == 2);  // the wall has moved by a column or more
 }
 
 TEST_CASE("colour, cut, chains and a picked grain change what is seen and said") {
@@ -136,7 +136,7 @@ TEST_CASE("colour, cut, chains and a picked grain change what is seen and said")
   browser.js(chosen("cut", "y", "change"));
   CHECK(pixels(browser, "Math.max(r, g, b) - Math.min(r, g, b) > 40")["share"] != whole["share"]);
   browser.js(chosen("cut", "", "change"));
-  // every pair of bodies that push on each other is a chain
+  // Every pair of bodies that push on each other is one chain.
   std::set<std::pair<int, int>> pairs;
   const RecordForces forces(box.folder / "record.h5");
   for (const FrameContact& contact : forces.of_frame(forces.frame_count() - 1))
@@ -153,7 +153,7 @@ TEST_CASE("colour, cut, chains and a picked grain change what is seen and said")
   picture(browser);
   CHECK(browser.js("ballastReplay.marks.shownChains") < pairs.size() / 2);
   browser.js(clicked("chains"));
-  // a click on the grain nearest to the eye
+  // Clicks on the grain that is nearest to the eye.
   browser.js("document.getElementById('replay').scrollIntoView()");
   const Json spot = browser.js(
       "(() => { const d = ballastReplay.data, s = ballastReplay.stages[0], e = "
@@ -211,7 +211,7 @@ TEST_CASE("what is most wrong stands out from a light and a dark ground") {
   for (const bool is_dark : {false, true}) {
     browser.look(900, 700, is_dark);
     browser.open(place.path() / "errors.html", "", is_ready);
-    // contrast of the largest ball with the ground, as the accessibility guidelines count it
+    // Contrast of the largest ball with the background, as the accessibility guidelines define it.
     const double contrast = browser.js(
         "(() => { const { rods, paper } = ballastReplay.look(0), balls = []; for (let k = 0; "
         "k < rods.length; k += 12) balls.push(rods.slice(k, k + 12)); const ball = balls.sort("
@@ -239,7 +239,7 @@ TEST_CASE("the shadow is drawn anew where bodies, the cut or glass have changed,
   CHECK(drawn_after("ballastReplay.setTime(0.011)") == 1);
   CHECK(drawn_after("ballastReplay.set({ cut: 'y' })") == 1);
   CHECK(drawn_after("ballastReplay.set({ cut: '', grains: 'ghost' })") == 1);
-  // back where it was, the same picture
+  // Back in the first state it draws the same picture.
   browser.js(
       "ballastReplay.set({ grains: 'solid' }); ballastReplay.setTime(ballastReplay.data."
       "begin); ballastReplay.camera.home()");
@@ -260,13 +260,13 @@ TEST_CASE("a body whose number needs more than 16 bits is seen where it is") {
   if (Browser::is_missing()) return;
   const TemporaryFolder folder;
   ViewData view = one_tetrahedron(folder);
-  constexpr int count = 150000;  // more also than a call takes arguments
+  constexpr int count = 150000;  // also more than a call can take as arguments
   MechanicalSystem& system = view.system;
   system.bodies.assign(count, RigidBody(system.bodies[0]));
   system.grain_count = count;
   MotionState& frame = view.frames[0];
   frame.pose.assign(count, Pose{Vec3(60.0, 0.0, 0.0), frame.pose[0].rotation});
-  frame.pose.back().position = Vec3::Zero();  // all but the last are at one place
+  frame.pose.back().position = Vec3::Zero();  // all but the last are at the same place
   frame.velocity.assign(count, Vec3::Zero());
   frame.spin = frame.velocity;
   write_view_page(view, folder.path() / "page.html");
@@ -276,7 +276,7 @@ TEST_CASE("a body whose number needs more than 16 bits is seen where it is") {
                            "r.camera.matrix(s.aspect), r.data.centreOf(%d)); return s.pick("
                            "r.look(0), ...at); })()",
                            count - 1)) == count - 1);
-  browser.wait_for("ballastReplay.isDraft === false");  // balls at first, then all corners
+  browser.wait_for("ballastReplay.isDraft === false");  // first draws balls, then all corners
 }
 
 TEST_CASE("a body goes on where the world begins anew, and its way counts from the start") {
@@ -286,7 +286,7 @@ TEST_CASE("a body goes on where the world begins anew, and its way counts from t
   view.system.period.vector = Vec3(8.0, 6.0, 0.0);
   view.system.bodies.resize(2, RigidBody(view.system.bodies[0]));
   view.system.grain_count = 2;
-  // one follows the other, so near that they touch, nine periods on
+  // The first body follows the second so closely that they touch, over nine periods.
   const Vec3 velocity(4.0, 1.0, 0.0), gap(0.4, 0.2, 0.0), begin(1.0, 1.0, 2.0);
   const Pose pose = view.frames[0].pose[0];
   view.frames.clear();
@@ -325,7 +325,7 @@ TEST_CASE("where whole pictures come slowly, grains are balls while something mo
   Browser browser(900, 700);
   browser.open(driven_box().page(), "play=0&colour=none", is_ready);
   const Json whole = picture(browser);
-  // In pixels: what the paper does not show, and where whole and draft differ.
+  // Counts pixels that are dark in the draft, in the whole picture, and in both.
   const Json draft = browser.js(R"((() => {
     const r = ballastReplay, { gl, canvas: { width, height } } = r.stages[0];
     const seen = (moving) => {
@@ -360,7 +360,7 @@ TEST_CASE("narrow, dark, and without 3D") {
     Browser browser(375, 800, true);
     browser.open(box.page(), "play=0", is_ready);
     CHECK(browser.js("document.scrollingElement.scrollWidth") == 375);
-    // the words of every legend stand clear of each other, and the load's within the picture
+    // The words of every legend do not overlap, and the load's words lie within the picture.
     for (const char* colour : {"speed", "size", "rotation"}) {
       browser.js(chosen("colour", colour, "change"));
       CHECK(browser.js("(() => { const b = [...document.querySelectorAll('#replay-legend .ticks "
@@ -401,7 +401,7 @@ TEST_CASE("what is chosen stands in the address, and shows the same again") {
   browser.js(
       "ballastReplay.camera.turn(12, 3); ballastReplay.camera.pan(0.1, 0.05); "
       "ballastReplay.camera.zoom(0.8); ballastReplay.touched()");
-  // the camera stands in the address with five digits: not to the pixel the same
+  // The address keeps the camera to five digits, so that not every pixel is the same.
   const auto looks = [&] {
     return browser.js("Array.from(" + pixels_of() + ".bytes.filter((v, k) => k % 397 === 0))");
   };
@@ -424,12 +424,12 @@ TEST_CASE("what is chosen stands in the address, and shows the same again") {
         Browser::Json{"rotation", "2", "y", "0.3", "ghost"});
   CHECK(browser.js("document.getElementById('replay-chains').checked") == true);
   CHECK(browser.js("document.getElementById('replay-clock').textContent") == "0.011 s");
-  // another address in the same page
+  // Goes to another address in the same page.
   browser.js("location.hash = 'play=0&view=y'");
   browser.wait_for("ballastReplay.options.colour === 'speed'");
   CHECK(browser.js("ballastReplay.camera.name()") == "y");
   CHECK(browser.js("ballastReplay.options.chains") == false);
-  // a view along an axis is named; what is as at first is left out
+  // The address names a view along an axis and leaves out defaults.
   browser.js(clicked("viewz"));
   browser.wait_for("location.hash.includes('view=z')");
   CHECK(browser.js("location.hash.slice(1).split('&').sort()") ==

@@ -1,5 +1,5 @@
-// A checkpoint. The input is the body of the sealed file: with a checksum that fits, so that the
-// fuzzer gets behind it. What is taken is written as the same bytes.
+// A checkpoint. The input is the body of the sealed file and gets a valid checksum, so that the
+// fuzzer passes that check. An accepted input is written as the same bytes.
 
 #include "experiments/record/checkpoint.hpp"
 #include "platform/pack.hpp"

@@ -1,5 +1,5 @@
-// A kept row of a comparison, as JSON: the input as it is, and as changes of a whole row. What is
-// taken is written as a text that reads back to itself.
+// A stored row of a comparison, as JSON: the input as it is, and as changes of a whole row. An
+// accepted row is written as a text that is read back as the same text.
 
 #include <nlohmann/json.hpp>
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr hsize_t most_written = 4096;  // entries
 
-/// The next word, taken off the front; empty at the end.
+/// Removes the next word from the front of the text and returns it; empty at the end.
 std::string_view next_word(std::string_view& text, std::string_view separators) {
   text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
   const std::string_view word = text.substr(0, text.find_first_of(separators));
@@ -41,7 +41,7 @@ hid_t type_of(std::string_view name) {
   return -1;
 }
 
-/// "2,3"; "-": a scalar.
+/// The dataspace of the shape "2,3"; "-" is a scalar.
 hid_t space_of(std::string_view text) {
   if (text == "-") return H5Screate(H5S_SCALAR);
   std::vector<hsize_t> shape;
@@ -53,8 +53,7 @@ hid_t space_of(std::string_view text) {
 
 constexpr std::size_t letters_width = 8;
 
-/// The values in the words, as `type` has them: numbers, texts of any length, or eight letters
-/// each.
+/// Writes the words as values of `type`: numbers, texts of any length, or texts of eight letters.
 void write_values(hid_t dataset, hid_t type, std::string_view type_name, std::string_view words,
                   std::size_t count) {
   std::vector<std::string> texts(count);
@@ -100,7 +99,7 @@ void add_dataset(hid_t file, hid_t links, const std::string& path, std::string_v
 
 void write_described_hdf5(std::string_view description, const std::filesystem::path& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  // HDF5 keeps what it frees: under AddressSanitizer every file's megabytes would be mapped anew.
+  // Lets HDF5 keep freed memory. Under AddressSanitizer each file would map its megabytes anew.
   constexpr int kept = 1 << 26;  // bytes
   H5set_free_list_limits(kept, kept, kept, kept, kept, kept);
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);

@@ -1,5 +1,5 @@
-// A problem in FCLIB's HDF5 layout, with and without what a run's capture adds. The input describes
-// the HDF5 file (described_hdf5.hpp).
+// A problem in FCLIB's HDF5 layout, with and without the additions of a run's capture. The input
+// describes the HDF5 file (described_hdf5.hpp).
 
 #include "problems/files/captured_problem.hpp"
 #include "problems/files/problem_file.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// What every fuzz target does: bytes become a file, a reader of ours reads it, and whatever the
-// bytes are, the reader returns or refuses in one line that begins with the file's name.
+// Common to all fuzz targets: bytes become a file, and one of our readers reads it. Whatever the
+// bytes are, the reader returns or refuses them in one line that names the file.
 
 #include <cstdint>
 #include <cstdio>
@@ -21,19 +21,19 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Where inputs lie as files (scripts/fuzz.sh: in memory). Removed at exit.
+/// The folder for the input files (scripts/fuzz.sh puts it into memory). Removed at exit.
 inline const TemporaryFolder& input_folder() {
   static const TemporaryFolder folder;
   return folder;
 }
 
-/// A finding that no sanitizer sees: stops the fuzzer, which keeps the input.
+/// Reports a fault that no sanitizer sees: stops the fuzzer, which keeps the input.
 [[noreturn]] inline void finding(const std::string& what) {
   std::fprintf(stderr, "ballast fuzz: %s\n", what.c_str());
   abort();
 }
 
-/// read(), which may refuse `file` in one line that names it. Every other exception ends the
+/// Calls read(), which may refuse `file` in one line that names it. Any other exception ends the
 /// fuzzer.
 template <typename Read>
 void refused_or(const std::filesystem::path& file, Read&& read) {
@@ -44,7 +44,7 @@ void refused_or(const std::filesystem::path& file, Read&& read) {
     if (message.find(file.string()) == std::string::npos) finding("names no file: " + message);
     if (message.find_first_of("\r\n") != std::string::npos) finding("more than a line: " + message);
   } catch (const InvalidProblem&) {
-    // of a file that is well formed: it names the array and the entry
+    // The file is well formed, but not its problem: the message names the array and the entry.
   }
 }
 

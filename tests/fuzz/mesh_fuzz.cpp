@@ -1,5 +1,5 @@
-// OBJ and STL: the first byte says as which one the rest is read ('o': OBJ). What is taken is
-// written and taken again.
+// OBJ and STL: the first byte selects the format of the rest ('o': OBJ). An accepted mesh is
+// written and must be accepted again.
 
 #include "geometry/shape/mesh_file.hpp"
 #include "tests/fuzz/fuzz_file.hpp"

@@ -4,7 +4,7 @@
 #include "experiments/run/run.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 
-/// As the program's, but for the name of the solver: the list of solvers would bring all of them.
+/// As in the program, without the check of the solver's name, which would link all solvers.
 ballast::ResolvedScene ballast::resolve_run(const std::string& scene,
                                             const std::vector<std::string>& overrides) {
   return resolve_scene(find_scene(scene), overrides);

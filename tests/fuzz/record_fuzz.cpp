@@ -1,5 +1,5 @@
-// record.h5: its steps, its poses. The input describes the HDF5 file (described_hdf5.hpp); columns
-// that it does not name are there all the same, so that all of the rest is read.
+// The steps and poses of record.h5. The input describes the HDF5 file (described_hdf5.hpp). Columns
+// that it does not name are added, so that the reader goes through to the end.
 
 #include "experiments/record/record_file.hpp"
 #include "tests/fuzz/described_hdf5.hpp"

@@ -1,5 +1,5 @@
-// The append-only logs of a run. Checksums of the input are mended, so that the fuzzer gets behind
-// them; those of every second input are left as they are.
+// The append-only logs of a run. The checksums of every second input are corrected, so that the
+// fuzzer passes their check; the others stay as they are.
 
 #include <cstring>
 
@@ -11,7 +11,7 @@ using namespace ballast;
 
 namespace {
 
-/// Places in a log (platform/row_log.hpp), in bytes.
+/// The positions of a log's fields (platform/row_log.hpp), in bytes.
 constexpr std::size_t fixed_bytes = 40, row_size_at = 16, text_length_at = 32, safe_at = 40,
                       text_at = 56;
 

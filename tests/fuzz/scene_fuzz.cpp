@@ -1,4 +1,4 @@
-// A scene in TOML. What is taken is resolved to a text that resolves to itself.
+// A scene in TOML. An accepted scene is resolved to a text that resolves to itself.
 
 #include "problems/scene/scene_file.hpp"
 #include "tests/fuzz/fuzz_file.hpp"

@@ -17,7 +17,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-/// "[run: through libm] step time load" to a table without rows.
+/// Parses "[run: through libm] step time load" into a table without rows.
 Table table_of(const std::string& line) {
   const size_t end = line.find(']');
   std::vector<std::string> words = words_of(line.substr(end + 1));

@@ -1,4 +1,4 @@
-// Same input, same bits: what comes out today against tests/golden/golden.txt.
+// Same input, same bits: compares the values of this build with tests/golden/golden.txt.
 
 #include <filesystem>
 #include <fstream>
@@ -40,7 +40,7 @@ File sample() {
 TEST_CASE("golden: deposit, detection, assembly, sweeps, correction, backends: the same bits") {
   File expected = committed();
   const File found = values_today();
-  // A build without SuiteSparse has none of them.
+  // A build without SuiteSparse has no such backends.
   if (!find_solver("prox_newton").make)
     std::erase_if(expected.tables, [](const Table& t) { return t.name == factoring_table; });
   INFO("meant? docs/house/checks.md says how to make them anew");
@@ -62,7 +62,7 @@ TEST_CASE("golden: the values hold what they are meant to hold") {
         "libm grains contacts problem backends backends_factoring deposit packing packing_bodies "
         "drive "
         "drive_last_step drive_bodies ");
-  // the correction had something to do, contacts slide and stick
+  // The correction does something; contacts slide and stick.
   for (const Table& table : expected.tables)
     if (table.name == "drive_last_step")
       for (const auto& [column, cells] : table.rows)
@@ -117,7 +117,7 @@ TEST_CASE("golden: digests see every bit and the sign of zero") {
   CHECK(exact(0.1) == "0x1.999999999999ap-4");
 }
 
-/// Makes the file anew.
+/// Writes the file anew.
 TEST_CASE("golden: make the values anew", "[.make_golden]") {
   std::ofstream(golden_path, std::ios::binary) << text_of(values_today());
 }

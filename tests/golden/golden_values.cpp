@@ -28,8 +28,8 @@ std::vector<PrincipalShape> grains(int count) {
   return make_grains(count, spec.distribution, spec.size_convention, spec.shape, spec.seed);
 }
 
-/// Grains on a grid so narrow that neighbours overlap, above and in a fixed floor. None turns: the
-/// half step of motion before detection asks the sine and cosine of zero alone, which are exact.
+/// Grains on a grid so narrow that neighbours overlap, above a fixed floor and in it. None turns:
+/// the half step of motion before detection takes sine and cosine of zero alone, which are exact.
 Scene heap() {
   constexpr int side = 3;
   constexpr double spacing = 0.05, density = 2700.0, speed = 0.5;  // [m] [kg/m^3] [m/s]
@@ -57,7 +57,7 @@ Scene heap() {
   return scene;
 }
 
-/// The backends of one table.
+/// The backends of one table, and their numbers of iterations.
 struct Kind {
   const char* table;
   Through through;
@@ -65,10 +65,10 @@ struct Kind {
   bool (*holds)(const SolverEntry& entry);
 };
 
-/// Without a foreign library, which would sum in the order that suits the processor.
+/// True without a foreign library, which would sum in the order that suits the processor.
 bool is_own_code(const SolverEntry& entry) { return std::string(entry.package).empty(); }
 
-/// SuiteSparse orders the bodies, which is a matter of whole numbers; the factors are our own.
+/// SuiteSparse only orders the bodies, by integer arithmetic; the factors are our own.
 bool factors_over_bodies(const SolverEntry& entry) {
   constexpr std::array names = {"admm",      "interior_point", "newton_ac", "newton_burst",
                                 "newton_fb", "prox_newton",    "sap"};
@@ -77,7 +77,7 @@ bool factors_over_bodies(const SolverEntry& entry) {
 
 constexpr std::array backend_kinds = {
     Kind{"backends", Through::arithmetic, {1, 3, 20}, is_own_code},
-    // newton_burst begins with 500 sweeps
+    // newton_burst begins with 500 sweeps.
     Kind{factoring_table, Through::libm, {1, 20, 520}, factors_over_bodies}};
 
 Table backend_values(const FrictionProblem& problem, const Impulses& warm, const Kind& kind) {
@@ -105,7 +105,7 @@ Table backend_values(const FrictionProblem& problem, const Impulses& warm, const
   return table;
 }
 
-/// A table of arrays, each by its size and its digest.
+/// A table of arrays, with the size and the digest of each.
 Table array_table(const char* name,
                   const std::vector<std::pair<const char*, std::span<const double>>>& arrays) {
   Table table{name, Through::arithmetic, "array", {"count", "digest"}};
@@ -150,7 +150,7 @@ Table problem_values(const FrictionProblem& problem, const Impulses& impulses,
                                  {"spin_after", spin}});
 }
 
-/// vibrated_box_small with so few grains that all stages of it together take a second.
+/// vibrated_box_small with so few grains that all its stages together take a second.
 Scene small_scene() {
   const std::vector<std::string> overrides = {
       "grains.count=12",           "box.length=0.12",          "box.width=0.12",
@@ -159,7 +159,7 @@ Scene small_scene() {
   return read_scene(find_scene("vibrated_box_small"), overrides);
 }
 
-/// The columns of a record but wall clocks and the solid fraction, which the run's loop measures.
+/// A record's columns without wall clocks and the solid fraction, which the run's loop measures.
 std::vector<StepColumn> physics_columns() {
   std::vector<StepColumn> columns;
   for (const StepColumn& column : step_columns())
@@ -167,8 +167,8 @@ std::vector<StepColumn> physics_columns() {
   return columns;
 }
 
-/// A table with a column for each of the record's; a cell is the digest of some steps of it,
-/// and the row is called by the last of them.
+/// A table with the columns of the record. A cell is the digest of several steps of its column; the
+/// row has the name of the last of them.
 class StepTable {
  public:
   StepTable(const char* name, size_t steps_per_row) : steps_per_row_(steps_per_row) {
@@ -189,7 +189,7 @@ class StepTable {
 
  private:
   void end_row() {
-    constexpr int digits = 4;  // enough: what differs once differs from then on
+    constexpr int digits = 4;  // enough: a column that differs once differs in all later rows
     std::vector<std::string> cells;
     for (const StepColumn& column : columns_)
       cells.push_back(digest(record_column(steps_, column.value), digits));
@@ -228,7 +228,7 @@ Table packing_values(const Packing& packing) {
   return table;
 }
 
-/// All columns of one step, readable.
+/// All columns of one step in readable form.
 Table step_values(const char* name, const StepRecord& step) {
   Table table{name, Through::libm, "column", {"exact", "about"}};
   for (const StepColumn& column : physics_columns()) {
@@ -281,7 +281,7 @@ std::vector<Table> heap_values() {
   MotionState state;
   Scene scene = heap();
   scene.solver.name = "pgs";
-  scene.solver.tolerance = 1e-3 / velocity_scale(scene);  // of 1 m/s
+  scene.solver.tolerance = 1e-3 / velocity_scale(scene);  // 1e-3 m/s
   scene.solver.max_iterations = 50;
   const MechanicalSystem system = make_system(scene, state);
   TimeStepper stepper(system, scene, -1);

@@ -1,4 +1,4 @@
-// What the docs quote, cite and link to is there, and their prose can be read in an editor.
+// The files and pages that the docs quote, cite and link to exist, and their prose fits an editor.
 
 #include <algorithm>
 #include <regex>
@@ -32,10 +32,10 @@ std::vector<Page> pages() {
   return found;
 }
 
-/// `ballast bench all` writes it, and names the commit that it measured.
+/// `ballast bench all` writes the results and names the commit that it measured.
 constexpr const char *results_page = "docs/results.md", *checks_page = "docs/house/checks.md";
 
-/// Numbers and commands that a program put in widen its lines.
+/// Pages with numbers and commands that a program inserts, which widen their lines.
 bool is_generated(const Page& page) {
   return page.path.string().starts_with("docs/article/") || page.path == results_page;
 }
@@ -52,22 +52,22 @@ std::vector<std::string> prose(const std::string& text) {
   return found;
 }
 
-/// Targets of the links to files of this project: `[words](target)` or `[words](<target>)`, without
+/// The targets of links to files of this project: `[words](target)` or `[words](<target>)`, without
 /// `#part`.
 std::vector<std::string> links(const std::string& text) {
   static const std::regex link(R"(\]\(<?(?!http|#)([^)>#]+))");
   return matches(text, link);
 }
 
-/// What stands in backticks and looks like a path of the sources: `solvers/seam/solver.hpp`, a
-/// module without its suffix, or a folder. Placeholders (<room>, *, foo) are not paths.
+/// Texts in backticks that look like a path of the sources: `solvers/seam/solver.hpp`, a module
+/// without its suffix, or a folder. Placeholders (<room>, *, foo) are not paths.
 std::vector<std::string> cited_paths(const std::string& text) {
   static const std::regex path(
       R"(`((?:platform|geometry|problems|solvers|experiments|tests)/(?![^`]*foo)[^` <*{]*)`)");
   return matches(text, path);
 }
 
-/// The pages that a source names in a comment or a message: docs/manual/plans.md.
+/// The pages that a source names in a comment or a message, such as docs/manual/plans.md.
 std::vector<std::string> cited_pages(const std::string& text) {
   static const std::regex page(R"((docs/(?!measured/\.\.)[\w/.-]*?\.md))");
   return matches(text, page);
@@ -78,14 +78,14 @@ bool is_in_the_tree(const std::string& path) {
          fs::exists(root() / (path + ".cpp"));
 }
 
-/// Words that look like a commit: seven hexadecimal digits or more, letters and figures mixed.
+/// Words that look like a commit: seven or more hexadecimal digits, letters and figures mixed.
 std::vector<std::string> commits(const std::string& text) {
   static const std::regex commit(
       R"((?:^|[^\w.-])((?=[0-9]*[a-f])(?=[a-f]*[0-9])[0-9a-f]{7,})(?![\w.-]))");
   return matches(text, commit);
 }
 
-/// Pages -> least number of links from README.md to them.
+/// Pages -> the least number of links from README.md to each.
 std::map<std::string, int> distances_from_readme() {
   std::map<std::string, int> distance = {{"README.md", 0}};
   std::vector<std::string> queue = {"README.md"};
@@ -203,7 +203,7 @@ TEST_CASE("what docs/house/adding_a_solver.md quotes is what the files say") {
   bool inside = false;
   int quotations = 0;
   for (const std::string& line : lines_of(content(root() / "docs/house/adding_a_solver.md"))) {
-    if (!inside) {  // the last file that was named before a block is the one quoted
+    if (!inside) {  // the block quotes the last file named before it
       for (const std::string& name : matches(line, named)) file = name;
       inside = line == "```cpp" || line == "```cmake";
       quotation.clear();

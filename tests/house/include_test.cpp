@@ -1,4 +1,4 @@
-// Who may include whom (docs/house/design.md), read from the sources and from CMake.
+// The rules of includes between rooms (docs/house/design.md), read from the sources and from CMake.
 
 #include <algorithm>
 
@@ -11,8 +11,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// The law of the house: beginning of a path -> beginnings of the paths that it may include.
-/// Doors between rooms (CMake) say more; none may say something else.
+/// The rule: beginning of a path -> beginnings of the paths that it may include. The doors between
+/// rooms (CMake) restrict it further; none may contradict it.
 const std::vector<std::pair<std::string, Words>> law = {
     {"platform/", {"platform/"}},
     {"geometry/", {"geometry/", "platform/"}},
@@ -40,11 +40,11 @@ const std::vector<std::pair<std::string, Words>> third_party = {
     {"Ip", {"solvers/backends/ipopt"}},
     {"nlopt.h", {"solvers/backends/nlopt", "tests/solvers/backends/nlopt"}},
     {"siconos/", {"solvers/backends/siconos"}},
-    {"immintrin.h", {"solvers/gauss_seidel/lanes"}},  // the processor's own operations
+    {"immintrin.h", {"solvers/gauss_seidel/lanes"}},  // the processor's own instructions
     {"catch2/", {"tests/catch.hpp", "tests/test_main.cpp"}},
 };
 
-/// POSIX; every other header of the C or C++ library has neither a slash nor a suffix.
+/// POSIX headers. Every other header of the C or C++ library has neither a slash nor a suffix.
 const Words posix = {"dirent.h", "fcntl.h",  "fnmatch.h", "glob.h",  "poll.h", "signal.h",
                      "spawn.h",  "stdlib.h", "unistd.h",  "dlfcn.h", "sys/"};
 
@@ -105,7 +105,7 @@ Arrows module_arrows(const std::vector<SourceFile>& files) {
 TEST_CASE("every include goes through a door, and downward") {
   const Arrows doors_of = doors();
   const std::vector<SourceFile> files = all_sources(true);
-  CHECK(files.size() > 400);  // the right folder was read
+  CHECK(files.size() > 400);  // it has read the right folder
   CHECK(doors_of.size() > 20);
   for (const SourceFile& file : files)
     for (const std::string& breach : breaches(file, doors_of)) FAIL_CHECK(breach);

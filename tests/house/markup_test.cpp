@@ -1,4 +1,4 @@
-// No markup outside experiments/page: pages say what, and one room knows HTML and Markdown.
+// There is no markup outside experiments/page, the only room that knows HTML and Markdown.
 
 #include <algorithm>
 #include <cctype>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* home = "experiments/page/";
 
-/// What stands between quotation marks in C++, with the line it begins in. Escapes stay as written.
+/// A text between quotation marks in C++ and the line it begins in. Escapes stay as written.
 struct Literal {
   std::string text;
   size_t line = 1;
@@ -27,7 +27,7 @@ std::vector<Literal> literals_of(const std::string& source) {
     return source.compare(at, std::strlen(what), what) == 0;
   };
   for (size_t at = 0; at < source.size();) {
-    // what begins here, and where it ends
+    // The comment, literal or character that begins at `at` ends at `end`.
     const size_t begin = at;
     size_t end = at + 1;
     if (starts(at, "//")) {
@@ -41,7 +41,7 @@ std::vector<Literal> literals_of(const std::string& source) {
       found.push_back({source.substr(open + 1, end - open - 1), line});
       end += close.size();
     } else if (source[at] == '"' || source[at] == '\'') {
-      // an apostrophe after a digit only parts its digits
+      // An apostrophe after a digit only separates digits.
       const bool is_separator =
           source[at] == '\'' && at > 0 && std::isalnum(static_cast<unsigned char>(source[at - 1]));
       while (!is_separator && end < source.size() && source[end] != source[at])
@@ -56,8 +56,8 @@ std::vector<Literal> literals_of(const std::string& source) {
   return found;
 }
 
-/// The markup in a literal; empty when there is none. XML of other programs (ParaView's) is none:
-/// its elements have capital letters.
+/// The markup in a literal; empty when there is none. XML of other programs (ParaView's) does not
+/// count: its elements have capital letters.
 std::string markup_in(const std::string& text) {
   static const std::regex html(
       "</?(a|b|i|p|u|br|hr|em|li|td|th|tr|ul|ol|h[1-6]|dl|dt|dd|div|img|nav|pre|sub|sup|svg|css|"

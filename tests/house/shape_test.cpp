@@ -1,5 +1,5 @@
-// The shape of the sources: lines and files that a reader can take in, and a test beside every
-// module.
+// The shape of the sources: files and lines are short enough for a reader, and every module has a
+// test.
 
 #include <algorithm>
 #include <regex>
@@ -30,8 +30,8 @@ std::vector<std::string> breaches(const std::string& path, const std::string& te
   return found;
 }
 
-/// Module -> where it is tested when not by a test of its own name, and why there: the lines
-/// "module: reason" of tests/<room>/tested_elsewhere.txt.
+/// Module -> the place of its test if no test has its name, and the reason: the lines "module:
+/// reason" of tests/<room>/tested_elsewhere.txt.
 std::map<std::string, std::string> exceptions(const std::set<std::string>& rooms) {
   std::map<std::string, std::string> reasons;
   for (const std::string& room : rooms)
@@ -72,7 +72,7 @@ TEST_CASE("what is too long or too wide is seen") {
   CHECK(breaches("a.cpp", std::string(widest_line + 1, 'x') + "\n").size() == 1);
   std::string accents;
   for (size_t k = 0; k < widest_line; ++k) accents += "µ";
-  CHECK(breaches("a.cpp", accents).empty());  // columns, not bytes
+  CHECK(breaches("a.cpp", accents).empty());  // counts columns, not bytes
   CHECK(breaches("a.hpp", "int x;\n").size() == 1);
 }
 

@@ -101,7 +101,7 @@ Arrows doors() {
 }
 
 std::set<std::string> ring(Arrows arrows) {
-  // What leads nowhere goes, and arrows to it with it; then, backwards, what nothing leads to.
+  // Removes names that lead nowhere and the arrows to them; then names that nothing leads to.
   for (int way = 0; way < 2; ++way) {
     size_t before = 0;
     do {

@@ -61,7 +61,7 @@ TEST_CASE("what goes wrong is one line that begins with the file") {
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   for (const auto& [file, said] : {std::pair(absent, "open: No such file or directory"),
                                    {folder.path(), "read: Is a directory"},
-                                   // It could be without end.
+                                   // Reading it might never end.
                                    {pipe, "read: it is a pipe, not a regular file"},
                                    {"/dev/zero", "read: it is a device, not a regular file"}})
     CHECK(complaint_about(file, [&] { read_whole_file(file); }) == std::string("cannot ") + said);
@@ -88,7 +88,7 @@ TEST_CASE("folders are made with their parents") {
   const TemporaryFolder folder;
   const fs::path deep = folder.path() / "a" / "b" / "c";
   create_folder(deep);
-  create_folder(deep);  // it may be there
+  create_folder(deep);  // it may exist already
   CHECK(fs::is_directory(deep));
   const fs::path file = folder.write("file", "");
   for (const fs::path& refused : {file, file / "x"})
@@ -140,7 +140,7 @@ TEST_CASE("an open descriptor's file is written in place, not replaced") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("file", "old"), name = folder.path() / "stdout";
   const int descriptor = open(file.c_str(), O_RDWR);
-  // As /dev/stdout: a link into /proc.
+  // A link into /proc, as /dev/stdout is.
   fs::create_symlink("/proc/self/fd/" + std::to_string(descriptor), name);
   write_whole_file(name, "new");
   char bytes[8] = {};
@@ -168,9 +168,9 @@ TEST_CASE("results go into a folder that is new, empty, or has such results") {
   };
   CHECK(said() == "");
   fs::create_directory(results);
-  write_whole_file(results / "killed.tmp", "");  // before a first file was whole
+  write_whole_file(results / "killed.tmp", "");  // killed in the first file
   CHECK(said() == "");
-  for (const char* file : {"notes.txt", "rows", "a"}) {  // the user's own
+  for (const char* file : {"notes.txt", "rows", "a"}) {  // files of the user
     write_whole_file(results / file, "no folder");
     CHECK_THAT(said(), Catch::StartsWith("holds files"));
   }
@@ -193,7 +193,7 @@ TEST_CASE("what a name leads to, links followed") {
   CHECK((is_there(link) && is_file(link)));
   CHECK((is_there(folder.path()) && is_folder(folder.path()) && !is_file(folder.path())));
   CHECK((is_there(pipe) && !is_file(pipe) && !is_folder(pipe)));
-  // A name that the system refuses leads to nothing.
+  // A name that the system refuses does not exist.
   const fs::path longer_than_any(std::string(5000, 'n'));
   REQUIRE_THROWS(fs::exists(longer_than_any));
   for (const fs::path& none : {missing, longer_than_any})
@@ -238,7 +238,7 @@ TEST_CASE("one holder at a time, who is named to the others; the lock's file goe
   const FileLock lock(file, at_once);
   CHECK_FALSE(lock.is_held());
   CHECK(lock.holder() == read_whole_file(file));
-  // The lock of a killed process is free, although its file is still there.
+  // The lock of a killed process is free, although its file still exists.
   other.die();
   CHECK(fs::exists(file));
   CHECK(FileLock(file, at_once).is_held());

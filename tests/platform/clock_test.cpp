@@ -19,7 +19,7 @@ TEST_CASE("a stopwatch runs in seconds, and its laps add up") {
   }
   const double all = whole.seconds();
   CHECK(all >= sum);
-  CHECK(all < 60.0);  // not milliseconds
+  CHECK(all < 60.0);  // seconds, not milliseconds
   CHECK(all - sum < 0.5 * all + 0.01);
   CHECK(whole.seconds() >= all);
 }

@@ -17,11 +17,11 @@ TEST_CASE("what was packed comes back, at every level") {
 }
 
 TEST_CASE("the check sum of PNG files") {
-  CHECK(crc32_of("123456789") == 0xcbf43926u);  // the known value of this polynomial
-  CHECK(crc32_of("IEND") == 0xae426082u);       // as at the end of every PNG
+  CHECK(crc32_of("123456789") == 0xcbf43926u);  // the check value of this polynomial
+  CHECK(crc32_of("IEND") == 0xae426082u);       // the one at the end of every PNG
 }
 
-// The examples of RFC 4648, section 10, and bytes that are no text.
+// The examples of RFC 4648, section 10, and bytes that are not text.
 TEST_CASE("bytes as base64") {
   CHECK(base64("").empty());
   CHECK(base64("f") == "Zg==");

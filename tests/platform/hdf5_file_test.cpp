@@ -33,9 +33,9 @@ TEST_CASE("HDF5 prints nothing of its own") {
 
 namespace {
 
-constexpr size_t sample_rows = 5000;  // of 48 bytes: several compressed chunks
+constexpr size_t sample_rows = 5000;  // 48 bytes each: several compressed chunks
 
-/// Something of each kind, and slices of two by three numbers.
+/// Writes an item of each kind, and slices of two by three numbers.
 void write_sample(const fs::path& path, Hdf5Storage storage = Hdf5Storage::compressed) {
   Hdf5Writer file(path, storage);
   file.add_group("group");
@@ -242,7 +242,7 @@ TEST_CASE("what cannot be written is an error that names the file") {
 
 namespace {
 
-/// Two megabytes, and metadata of many groups.
+/// Writes two megabytes, and the metadata of many groups.
 void write_much(const fs::path& path) {
   Hdf5Writer writer(path, Hdf5Storage::plain);
   writer.add("x", std::vector<double>(250000, 1.5));
@@ -270,7 +270,7 @@ TEST_CASE("a disk that fills up at any moment is one error, and no file") {
   for (std::uintmax_t limit = 0; limit < length; limit += length / 23)
     CHECK(complaint_about(path, [&] { write_within(limit); }) == "cannot write: File too large");
   CHECK(fs::is_empty(folder.path()));
-  // HDF5 has no file open that it would try to finish at the end of the program.
+  // HDF5 has no open file that it would try to finish at the end of the program.
   CHECK(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL) == 0);
 }
 

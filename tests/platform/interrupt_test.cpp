@@ -30,12 +30,12 @@ TEST_CASE("a guard within another's life leaves it what it was asked for") {
     CHECK(InterruptGuard::requested());
   }
   CHECK(InterruptGuard::requested());
-  raise(SIGHUP);  // still caught
+  raise(SIGHUP);  // the signal is still caught
 }
 
 namespace {
 
-/// How a process ends that does `work`: 128 + signal, or its exit code.
+/// The end of a process that does `work`: 128 + signal, or its exit code.
 template <typename Work>
 int end_of(const Work& work) {
   ChildProcess child([&] {
@@ -93,7 +93,7 @@ TEST_CASE("with closed standard streams, no file gets their number") {
       for (const int stream : closed) close(stream);
       prepare_standard_streams();
       const int opened = open("/dev/null", O_RDONLY);
-      // What is printed goes nowhere, without an error.
+      // Output is dropped without an error.
       _exit(write(STDOUT_FILENO, "x", 1) == 1 && write(STDERR_FILENO, "x", 1) == 1 ? opened : 99);
     });
   };
@@ -111,7 +111,7 @@ TEST_CASE("a file over the limit is an error, not a death") {
           const rlimit small{4, 4};
           setrlimit(RLIMIT_FSIZE, &small);
           const int opened = open(file.c_str(), O_WRONLY | O_CREAT, 0600);
-          if (write(opened, "12345678", 8) != 4) _exit(2);  // as much as fits
+          if (write(opened, "12345678", 8) != 4) _exit(2);  // writes as much as fits
           _exit(write(opened, "5678", 4) < 0 && errno == EFBIG ? 0 : 1);
         }) == 0);
 }

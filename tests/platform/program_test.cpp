@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// No child is left over, running or dead.
+/// True if no child is left, running or dead.
 bool no_children() { return waitpid(-1, nullptr, WNOHANG) == -1; }
 
 [[noreturn]] void wait_for_ever() {
@@ -35,20 +35,20 @@ int status_of(ChildProcess& child) {
   return child.status();
 }
 
-/// The process that wrote its number into the file runs; waits for the file.
+/// Whether the process whose number is in the file runs. Waits for the file.
 bool runs(const fs::path& file) {
   pid_t process = 0;
   for (const Stopwatch watch; process == 0 && watch.seconds() < 10.0; usleep(1000))
     std::ifstream(file) >> process;
   REQUIRE(process > 1);
-  // It may belong to init now, which may take a while to wait for it.
+  // It may be a child of init by then, which may reap it late.
   std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
   std::string number, name, state;
   stat >> number >> name >> state;
   return stat && state != "Z";
 }
 
-/// Within ten seconds.
+/// Whether the process ends within ten seconds.
 bool ends(const fs::path& file) {
   for (const Stopwatch watch; watch.seconds() < 10.0; usleep(1000))
     if (!runs(file)) return true;
@@ -58,7 +58,7 @@ bool ends(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("an answer comes back whole, whatever its size") {
-  for (const std::size_t size : {0u, 1u, 1000u, 8000000u}) {  // the last is longer than any pipe
+  for (const std::size_t size : {0u, 1u, 1000u, 8000000u}) {  // the last does not fit into any pipe
     std::string expected(size, '\0');
     for (std::size_t i = 0; i < size; ++i) expected[i] = static_cast<char>(i * 7 % 251);
     const ChildResult result = run_in_child(60.0, [&] { return expected; });
@@ -128,7 +128,7 @@ TEST_CASE("the status of a child is its exit code, or its signal") {
   CHECK(status_of(returns) == 1);
   CHECK(status_of(throws) == 1);
   CHECK(status_of(killed) == 128 + SIGTERM);
-  CHECK(status_of(five) == 5);  // asked again
+  CHECK(status_of(five) == 5);  // a second call returns the same
   CHECK(no_children());
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("a child ends with its object, and by signals as if nobody had caught 
 }
 
 TEST_CASE("a signal that comes while a child starts is not lost") {
-  const InterruptGuard guard;  // its handlers are the child's, too, at first
+  const InterruptGuard guard;  // at first the child has its handlers too
   for (int k = 0; k < 100; ++k) {
     ChildProcess asked(wait_for_ever);
     asked.send(SIGTERM);
@@ -198,7 +198,7 @@ TEST_CASE("much output on both channels does not block") {
   const ProgramResult result =
       shell("head -c 3000000 /dev/zero; head -c 3000000 /dev/zero >&2; cat; echo end");
   CHECK(result.succeeded());
-  CHECK(result.output.size() == 3000004);  // `cat` found its input empty
+  CHECK(result.output.size() == 3000004);  // the input of `cat` is empty
   CHECK(result.errors.size() == 3000000);
 }
 
@@ -235,7 +235,7 @@ TEST_CASE("a program beside us appends to its log, also that it cannot be starte
   CHECK(status_of(*start_program("/bin/sh", {"-c", "echo out; echo err >&2; exit 4"}, log)) == 4);
   CHECK(read_whole_file(log) == "before\nout\nerr\n");
   CHECK_THROWS_AS(start_program("/bin/sh", {}, absent / "log"), Error);
-  std::cout.flush();  // ThreadSanitizer's _exit writes what the child's copy of it holds
+  std::cout.flush();  // ThreadSanitizer's _exit writes the child's copy of its buffer
   CHECK(status_of(*start_program(absent, {}, log)) == 127);
   CHECK(last_line(log) == absent.string() + ": cannot be started: No such file or directory");
 }
@@ -283,14 +283,14 @@ TEST_CASE("words for a shell") {
   CHECK(shell_word("a b") == "'a b'");
   CHECK(shell_word("it's $HOME") == "'it'\\''s $HOME'");
   CHECK(shell_line({"a", "b c", ""}) == "a 'b c' ''");
-  // A shell reads them back.
+  // A shell reads the same words.
   const std::vector<std::string> words{"a b", "it's", "$HOME", "", "*", "x\ny"};
   std::string expected;
   for (const std::string& word : words) expected += word + "|";
   CHECK(shell("printf '%s|' " + shell_line(words)).output == expected);
 }
 
-// ---- programs that nobody trusts
+// ---- programs that are not trusted
 
 namespace {
 
@@ -355,7 +355,7 @@ TEST_CASE("A program that hangs or floods is given up in time, and its memory is
   for (const char* endless :
        {"sleep 1000", "exec <&- >&- 2>&-; sleep 1000", "exec yes", "exec yes >&2"})
     CHECK_FALSE(program(endless).wait(0.3));
-  // One line without end: its beginning is what is heard.
+  // An endless line: only its beginning is read.
   auto endless = program("yes | tr -d \"\\n\"");
   std::string line;
   CHECK(endless.read_line(line, 0.3) == SupervisedProgram::Heard::out_of_time);
@@ -369,7 +369,7 @@ TEST_CASE("A program that hangs or floods is given up in time, and its memory is
 TEST_CASE("What a program forks ends with it") {
   const TemporaryFolder folder;
   const auto child = folder.path() / "child", daemon = folder.path() / "daemon";
-  // One in its group, and one that left it for a session of its own while its parent ended.
+  // One child stays in the group. The other gets a session of its own, and its parent ends.
   const std::string forks = "(sh -c \"echo \\$\\$ > " + child.string() +
                             "; exec sleep 1000\") & (setsid sh -c \"echo \\$\\$ > " +
                             daemon.string() + "; exec sleep 1000\" &) ";

@@ -17,7 +17,7 @@ TEST_CASE("splitmix64 gives the published numbers") {
 }
 
 TEST_CASE("xoshiro256++ seeded by splitmix64 gives the numbers that other libraries give") {
-  Random random(0);  // as rand_xoshiro's Xoshiro256PlusPlus::seed_from_u64(0)
+  Random random(0);  // as Xoshiro256PlusPlus::seed_from_u64(0) of rand_xoshiro
   for (const std::uint64_t expected :
        {5987356902031041503u, 7051070477665621255u, 6633766593972829180u, 211316841551650330u,
         9136120204379184874u, 379361710973160858u})
@@ -38,7 +38,7 @@ TEST_CASE("uniform and normal numbers have the moments they should have") {
     normal_mean += x / n;
     normal_sq += x * x / n;
   }
-  // five standard errors of each mean
+  // Five standard errors of each mean.
   const double error = 5.0 / std::sqrt(static_cast<double>(n));
   CHECK(std::abs(mean - 0.5) < error * 0.29);
   CHECK(std::abs(square - 1.0 / 3.0) < error * 0.3);

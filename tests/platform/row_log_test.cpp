@@ -20,7 +20,7 @@ std::vector<double> row_of(long k) {
   return {x, -0.5 * x, std::nan("")};
 }
 
-/// `safe` rows that are flushed, then `more` that reach the disk without it.
+/// Writes `safe` rows and flushes them, then `more` rows that reach the disk without a flush.
 void write_rows(const fs::path& file, long safe, long more) {
   RowWriter writer(file, header);
   for (long k = 0; k < safe; ++k) writer.append(row_of(k));
@@ -40,7 +40,7 @@ long count_rows(RowReader& reader) {
   return count;
 }
 
-/// Rows that are read from the file, or what the error says behind the file's name.
+/// The number of rows in the file, or the error's message after the file's name.
 std::string read_all(const fs::path& file) {
   long rows = 0;
   const std::string said = complaint_about(file, [&] {
@@ -161,12 +161,12 @@ TEST_CASE("a row of another size is refused") {
 TEST_CASE("a size of rows that no file can hold is refused, not asked of memory or divided by") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "log";
-  // 2^61 - 1: the bytes of a row and its checksum would be 2^64, which is zero
+  // 2^61 - 1: the bytes of a row with its checksum would be 2^64, which overflows to zero.
   for (const size_t size : {size_t{0}, (size_t{1} << 61) - 1, size_t{1} << 40}) {
     RowWriter(file, {"", 0, size});
     CHECK(read_all(file) == "is damaged: a row of " + std::to_string(size) + " numbers");
   }
-  // 32 GB a row, and no row there yet: a log that has just begun
+  // 32 GB a row, and no row there yet: a log that has just begun.
   RowWriter(file, {"", 0, size_t{1} << 32});
   CHECK(RowReader(file).next().empty());
 }

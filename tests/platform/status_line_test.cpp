@@ -13,7 +13,7 @@ TEST_CASE("a line rewrites itself on a terminal, elsewhere each is a line, and q
   for (const auto& [style, expected] :
        {std::pair(Style::bar,
                   "\r\x1b[K\x1b[?7lone\x1b[?7h\r\x1b[K\x1b[?7ltwo\x1b[?7h\n"  // ended once
-                  "\r\x1b[K\x1b[?7lthree\x1b[?7h\n"),                         // by the destructor
+                  "\r\x1b[K\x1b[?7lthree\x1b[?7h\n"),                         // by destructor
         {Style::lines, "one\ntwo\nthree\n"},
         {Style::quiet, ""}}) {
     std::ostringstream out;

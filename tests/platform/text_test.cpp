@@ -35,7 +35,7 @@ TEST_CASE("lists have a separator between their items alone") {
 TEST_CASE("one line holds no control character, and an Error is one line") {
   const std::string text("a\nb\r\tc\0d\x7f", 9), other = "\xc3\xa9\xff ~";
   CHECK(one_line(text, ' ') == "a b  c d ");
-  CHECK(one_line(other, '?') == other);  // beyond ASCII nothing is touched
+  CHECK(one_line(other, '?') == other);  // characters beyond ASCII stay
   CHECK(std::string(Error("file: " + text).what()) == "file: a?b??c?d?");
 }
 

@@ -11,7 +11,7 @@ using namespace ballast;
 
 namespace {
 
-/// How often each part was done in `rounds` tasks.
+/// The number of times that each part was done in `rounds` tasks.
 std::vector<int> visits(WorkerTeam* team, int parts, int rounds) {
   std::vector<int> count(parts, 0);
   for (int round = 0; round < rounds; ++round)
@@ -43,9 +43,9 @@ TEST_CASE("members have parts that follow each other; only the caller takes thos
       for (int round = 0; round < 200; ++round) {
         team.run(parts, [&](int part) {
           by[static_cast<size_t>(part)] = std::this_thread::get_id();
-          if (part == 0) std::this_thread::yield();  // now and then the others are in time
+          if (part == 0) std::this_thread::yield();  // gives the other threads time
         });
-        // A worker's parts lie within one share.
+        // The parts of a worker lie within one share.
         for (int a = 0; a < parts; ++a)
           for (int b = a + 1; b < parts; ++b) {
             const auto thread = by[static_cast<size_t>(a)];
@@ -95,8 +95,8 @@ TEST_CASE("a task is over when run() returns: what it wrote can be read") {
 }
 
 TEST_CASE("a member that stops within a task takes no part of the next one, though it has more") {
-  // The next task has parts where the last had none left. On a machine with other programs in the
-  // way, a mistake here shows within seconds as a part done twice and a caller that waits forever.
+  // The next task has parts where the last had none left. On a machine with other load, a mistake
+  // here shows within seconds: a part is done twice and the caller waits for ever.
   for (int repeat = 0; repeat < 200; ++repeat) {
     WorkerTeam team;
     team.resize(3);
@@ -116,7 +116,7 @@ TEST_CASE("the caller and each of the others take part") {
   std::atomic<int> begun{0};
   team.run(3, [&](int part) {
     by[part] = std::this_thread::get_id();
-    // Nobody goes on before all have begun: no thread can do two.
+    // No thread goes on before all have begun, so that none can do two parts.
     for (++begun; begun < 3;) std::this_thread::yield();
   });
   CHECK(by[0] == std::this_thread::get_id());
@@ -131,7 +131,7 @@ TEST_CASE("what a member that is held up has not begun is done by the others") {
     std::atomic<int> done{0}, held{0};
     std::vector<int> count(10, 0);
     team.run(10, [&](int part) {
-      // The other thread's first part lasts until all the others are done.
+      // The other thread's first part lasts until all other parts are done.
       if (std::this_thread::get_id() != caller && ++held == 1)
         while (done < 9) std::this_thread::yield();
       ++count[part];
@@ -147,7 +147,7 @@ TEST_CASE("a team grows, shrinks and sleeps between two tasks") {
     team.resize(threads);
     CHECK(visits(&team, 9, 20) == std::vector<int>(9, 20));
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // they sleep by now
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // by then they sleep
   CHECK(visits(&team, 9, 20) == std::vector<int>(9, 20));
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("the caller works alone when it is told so, and the others again when 
 TEST_CASE("short work is done by whoever was faster when both were tried, long work by everybody") {
   WorkerTeam team;
   team.resize(2);
-  // One unit takes so long by everybody, and by the caller alone [s].
+  // The time of one unit with all threads (`whole`), and with the caller alone [s].
   const auto share_by_everybody = [&](double whole, double alone, double amount) {
     TeamPace pace;
     int rounds = 0;
@@ -186,9 +186,9 @@ TEST_CASE("short work is done by whoever was faster when both were tried, long w
   CHECK(share_by_everybody(1e-3, 2e-3, 1.0) > 0.95);
   CHECK(share_by_everybody(2e-3, 1e-3, 1.0) < 0.05);
   CHECK(share_by_everybody(2e-5, 1e-5, 100.0) < 0.05);
-  // nobody tries what takes long
+  // Long work is not tried alone.
   CHECK(share_by_everybody(0.05, 0.01, 1.0) == 1.0);
-  // where there is no team nothing is called
+  // Without a team no function is called.
   TeamPace().begin(nullptr);
 }
 

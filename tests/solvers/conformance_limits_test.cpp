@@ -1,4 +1,4 @@
-// What every registered backend must do: limits of size, iterations and time; repeatability;
+// Requirements of every registered backend: limits of size, iterations and time; repeatability;
 // history.
 
 #include <limits>
@@ -7,8 +7,7 @@
 
 using namespace ballast;
 
-/// Up to its stated limit a backend takes everything; and what it states is not less than what it
-/// takes.
+/// A backend takes every problem up to its stated limit, and takes no larger one.
 TEST_CASE("a backend takes problems up to the size that the register says") {
   for_each_backend([](const SolverEntry& entry) {
     const auto is_taken = [&](int contacts) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the conformance tests share: every backend, problems of a size that it promises to take,
+// Common to the conformance tests: every backend, problems of a size that it must take, and
 // budgets.
 
 #include <algorithm>
@@ -23,12 +23,12 @@ void for_each_backend(const Check& check) {
       }
 }
 
-/// `wanted` contacts, or as many as the backend takes with friction on all of them.
+/// `wanted`, or the number of contacts with friction that the backend takes, if it is smaller.
 inline int contacts_for(const SolverEntry& entry, int wanted) {
   return entry.largest == 0 ? wanted : std::min(wanted, entry.largest);
 }
 
-/// Nothing when the backend declines the problem's form or size.
+/// Returns nothing if the backend declines the problem's form or size.
 inline std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProblem& problem,
                                     const Budget& budget, const Impulses& start = {}) {
   try {
@@ -40,8 +40,8 @@ inline std::optional<SolverRun> run(const SolverEntry& entry, const FrictionProb
   }
 }
 
-/// The dynamics form, or W for a backend that takes only that. Nothing where it declines both: only
-/// beyond its limit.
+/// Runs on the dynamics form, or on W for a backend that takes only W. Returns nothing if it
+/// declines both, which it may only do beyond its limit.
 inline std::optional<SolverRun> run_unless_large(const SolverEntry& entry,
                                                  const FrictionProblem& problem,
                                                  const Budget& budget, const Impulses& start = {}) {
@@ -51,7 +51,7 @@ inline std::optional<SolverRun> run_unless_large(const SolverEntry& entry,
   return result;
 }
 
-/// For problems within the backend's limit.
+/// For problems within the limit of the backend.
 inline SolverRun run_either(const SolverEntry& entry, const FrictionProblem& problem,
                             const Budget& budget, const Impulses& start = {}) {
   std::optional<SolverRun> result = run_unless_large(entry, problem, budget, start);
@@ -71,7 +71,7 @@ inline KnownSolution known(int bodies, int contacts, double friction, double mas
 inline const Budget patient{.tolerance = 1e-8, .max_iterations = 100000, .max_seconds = 120.0};
 inline const Budget hurried{.tolerance = 1e-8, .max_iterations = 2000, .max_seconds = 0.5};
 
-/// Frictionless problems are the same under every law.
+/// True for the exact law. Frictionless problems are the same under every law.
 inline bool solves_coulomb(const SolverEntry& entry) { return entry.law == ContactLaw::coulomb; }
 
 }  // namespace ballast

@@ -1,4 +1,4 @@
-// What every registered backend must do: answers. Adding a row to solver_list.cpp is enough to be
+// Requirements of every registered backend: its answers. A row in solver_list.cpp is enough to be
 // tested here.
 
 #include <cmath>
@@ -17,14 +17,14 @@ TEST_CASE("problems with a known solution are solved, whatever their size and ra
          {Size{1, 1}, {2, 1}, {3, 2}, {10, 8}, {50, 40}, {200, 150}, {20, 40}, {30, 60}})
       for (const double friction : {0.0, 0.3, 0.8}) {
         if (friction > 0.0 && !solves_coulomb(entry)) continue;
-        if (friction == 0.3 && size.contacts > 10) continue;  // seconds of general solvers
+        if (friction == 0.3 && size.contacts > 10) continue;  // general solvers need seconds
         CAPTURE(size.bodies, size.contacts, friction);
         const KnownSolution exact = known(size.bodies, size.contacts, friction, 1.0);
         const std::optional<SolverRun> result = run_unless_large(entry, exact.problem, patient);
         if (!result) continue;
         CAPTURE(name_of(result->solved.reason), result->error.natural_map_rms);
         CHECK(result->is_solved());
-        // Impulses need not be unique, velocities near the solution are.
+        // Impulses need not be unique, but velocities near the solution are.
         Eigen::VectorXd u;
         contact_velocity(exact.problem, result->solved.impulses, u);
         CHECK((u - exact.u).lpNorm<Eigen::Infinity>() < 1e-5);
@@ -46,7 +46,7 @@ TEST_CASE("hard problems may not be solved, but no claim is false") {
           const SolverRun& result = *run;
           CHECK(result.error.finite);
           late += result.solved.reason ==
-                  StopReason::time_limit;  // on a slow machine, under sanitizers
+                  StopReason::time_limit;  // as on a slow machine, under sanitizers
           if (result.solved.reason == StopReason::reached_tolerance && solves_coulomb(entry)) {
             ++claims;
             CAPTURE(result.solved.own_residual, result.error.natural_map_rms);
@@ -96,10 +96,10 @@ TEST_CASE("contacts that all open take no impulse") {
     KnownSolutionSettings settings;
     settings.contacts = contacts_for(entry, settings.contacts);
     settings.open_fraction = 1.0;
-    // The relaxation presses contacts that leave more slowly than mu |u_T|.
+    // The relaxation presses contacts that separate more slowly than mu |u_T|.
     if (entry.law == ContactLaw::convex_relaxation) settings.friction_max = 0.0;
     const KnownSolution open = make_known_solution(settings);
-    // Without impulses every contact leaves: u = H v_free + bias is the solution's.
+    // Without impulses every contact separates: u = H v_free + bias is that of the solution.
     const SolverRun cold = run_either(entry, open.problem, patient);
     CHECK(cold.is_solved());
     CHECK(cold.solved.impulses.lpNorm<Eigen::Infinity>() < 1e-7);
@@ -111,7 +111,7 @@ TEST_CASE("contacts that all open take no impulse") {
 
 namespace {
 
-/// A block of 1 kg on a plane: it would sink at 0.1 m/s and slide at 1 m/s along the heading.
+/// A block of 1 kg on a plane that would sink at 0.1 m/s and slide at 1 m/s along the heading.
 FrictionProblem sliding_block(double heading) {
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
   FrictionProblem p;
@@ -145,7 +145,7 @@ TEST_CASE("a sliding block tells the laws apart, and every label is true") {
         CHECK(std::abs(u[0]) < 1e-7);
         CHECK(r[0] == Approx(0.1).epsilon(1e-6));
       }
-      // how far friction is from -mu r_N u_T / |u_T|
+      // The relative difference of friction from -mu r_N u_T / |u_T|.
       const double turn = (r.tail<2>() + 0.4 * r[0] * u.tail<2>() / slip).norm() / (0.4 * r[0]);
       CHECK(turn < 1e-5);
     }

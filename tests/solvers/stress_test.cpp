@@ -17,11 +17,11 @@ using namespace ballast;
 namespace {
 
 const Budget short_budget{.tolerance = 1e-8, .max_iterations = 20000, .max_seconds = 0.5};
-/// Where an answer is demanded: how fast the machine is must not decide.
+/// For tests that demand an answer: the speed of the machine must not decide.
 const Budget unhurried{.tolerance = 1e-8, .max_iterations = 20000, .max_seconds = 20.0};
 
-/// By which a solve may overrun its time: AddressSanitizer's forks alone take a second on a loaded
-/// machine.
+/// The time by which a solve may overrun its limit [s]: AddressSanitizer's forks alone take a
+/// second on a loaded machine.
 #ifdef __SANITIZE_ADDRESS__
 constexpr double overrun = 10.0;
 #else
@@ -32,8 +32,8 @@ double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return a.size() > 0 ? (a - b).lpNorm<Eigen::Infinity>() : 0.0;
 }
 
-/// From an error of 1e-8 in the contacts to one in velocities: the worst amplification of these
-/// problems is 1e3.
+/// The velocity error that an error of 1e-8 in the contacts may give: the worst amplification of
+/// these problems is 1e3.
 constexpr double near = 1e-5;
 
 void check_answer(const StressProblem& stress, const Impulses& r) {
@@ -45,7 +45,7 @@ void check_answer(const StressProblem& stress, const Impulses& r) {
   CHECK(distance(stress.v, x) < near);
 }
 
-/// error(k+1) / error(k) of Gauss-Seidel, once the slowest mode is alone.
+/// error(k+1) / error(k) of Gauss-Seidel, once only the slowest mode is left.
 double gauss_seidel_rate(const FrictionProblem& problem, int sweeps) {
   std::vector<double> errors;
   for (const int limit : {sweeps, 2 * sweeps}) {
@@ -76,8 +76,8 @@ TEST_CASE("stress: every backend, every problem") {
   });
 }
 
-/// Velocities of 250 cm/s with 1e-8 cm/s asked for, and a start at which Fischer and Burmeister's
-/// function has a kink.
+/// Velocities of 250 cm/s with a tolerance of 1e-8 cm/s, and a start at which Fischer and
+/// Burmeister's function has a kink.
 TEST_CASE("stress: rounding and kinks do not stop Newton's methods") {
   const std::pair<const char*, const char*> solved[] = {{"newton_ac", "units of gram and cm"},
                                                         {"newton_fb", "units of gram and cm"},
@@ -104,7 +104,7 @@ TEST_CASE("stress: answers are solutions") {
     CHECK(stress.problem.contact_count() <= 60);
     const Budget patient{.tolerance = 1e-12, .max_iterations = 2000000, .max_seconds = 5.0};
     const SolverRun result = SolverRunner().run(*make_solver("pgs"), stress.problem, {}, patient);
-    if (result.error.natural_map_rms > 1e-9) continue;  // R = 1e6 is out of Gauss-Seidel's reach
+    if (result.error.natural_map_rms > 1e-9) continue;  // Gauss-Seidel cannot solve R = 1e6
     check_answer(stress, result.solved.impulses);
     ++known;
   }

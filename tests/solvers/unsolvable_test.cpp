@@ -1,4 +1,4 @@
-// What every backend says of problems that no impulses solve, and of a W that is not symmetric.
+// The answers of every backend for problems that no impulses solve, and for an unsymmetric W.
 
 #include "tests/problems/algebra/unsolvable.hpp"
 #include "tests/solvers/conformance_support.hpp"
@@ -9,8 +9,8 @@ namespace {
 
 const Budget brief{.tolerance = 1e-8, .max_iterations = 500, .max_seconds = 1.0};
 
-/// A stored W whose diagonal blocks are off symmetry by `part` of their diagonal, as implicit
-/// gyroscopic terms make them, and q such that some contacts slide, some stick and some open.
+/// A stored W whose diagonal blocks deviate from symmetry by `part` of their diagonal, as with
+/// implicit gyroscopic terms, and q such that some contacts slide, some stick and some open.
 FrictionProblem gyroscopic(double part, std::uint64_t seed) {
   FrictionProblem problem = only_delassus(known(4, 5, 0.8, 10.0, seed).problem);
   SparseRows& w = problem.delassus.w;
@@ -75,11 +75,11 @@ TEST_CASE("W is judged as it is stored, symmetric or not") {
         if (problem.contact_rows(c) < 3) continue;
         const Eigen::Vector3d r = result->solved.impulses.segment<3>(first);
         const double slip = u.segment<2>(first + 1).norm();
-        // Sliding contacts bear mu r_N against the slip.
+        // Sliding contacts have the friction mu r_N against the slip.
         CHECK(std::abs(r.tail<2>().dot(u.segment<2>(first + 1)) +
                        problem.friction[c] * r[0] * slip) < 1e-5);
       }
     }
   }
-  CHECK(solved > 2 * backends);  // of three problems each, whichever backends a build has
+  CHECK(solved > 2 * backends);  // of three problems each, with any backends that a build has
 }

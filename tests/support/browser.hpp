@@ -1,8 +1,8 @@
 #pragma once
-// A browser without a window for tests of pages: Debian's chromium, told what to do in the DevTools
-// protocol over two pipes (its --remote-debugging-pipe: JSON messages that end in a zero byte). No
-// driver, no port. It has no network. Tests that run in one process share one program: each has a
-// tab of its own.
+// A headless browser for tests of pages: Debian's chromium, controlled by the DevTools protocol
+// over two pipes (its --remote-debugging-pipe: JSON messages that end in a zero byte), without a
+// driver or a port. It has no network. All tests in one process share one program, and each has its
+// own tab.
 
 #include <fcntl.h>
 #include <poll.h>
@@ -24,7 +24,7 @@
 
 namespace ballast {
 
-/// The program, and messages to and from it.
+/// The browser's process, and the messages to and from it.
 class BrowserProgram {
  public:
   using Json = nlohmann::json;
@@ -50,7 +50,7 @@ class BrowserProgram {
         "--user-data-dir=" + profile_.path().string()};
     words.insert(words.end(), switches.begin(), switches.end());
     child_.emplace([&] {
-      // the browser reads from 3 and writes to 4, wherever the pipes are now
+      // The browser reads from 3 and writes to 4, whatever descriptors the pipes have.
       const int in = fcntl(to[0], F_DUPFD, 10), out = fcntl(from[1], F_DUPFD, 10);
       dup2(in, 3);
       dup2(out, 4);
@@ -72,8 +72,8 @@ class BrowserProgram {
   BrowserProgram(const BrowserProgram&) = delete;
   BrowserProgram& operator=(const BrowserProgram&) = delete;
 
-  /// The answer to a command; `note` gets the events that come before it. `session`: of a tab, or
-  /// empty.
+  /// The answer to a command. `note` gets the events that come before it. `session`: that of a tab,
+  /// or empty.
   template <typename Note>
   Json call(const std::string& session, const std::string& method, const Json& parameters,
             const Note& note) {
@@ -121,19 +121,19 @@ class BrowserProgram {
   std::string received_;
 };
 
-/// A tab.
+/// A tab of the browser.
 class Browser {
  public:
   using Json = BrowserProgram::Json;
 
-  /// Without it the tests are skipped: they say so by these words, which ctest knows.
+  /// True without the browser: the tests are then skipped. ctest recognises this message.
   static bool is_missing() {
     if (std::filesystem::exists(BrowserProgram::path)) return false;
     WARN("skipped: " << BrowserProgram::path << " is not installed (apt-packages-browser.txt)");
     return true;
   }
 
-  /// With `switches` of the program it has a program of its own, which need not be able to draw.
+  /// With `switches` for the program it has a process of its own, which need not be able to draw.
   explicit Browser(int width, int height, bool is_dark = false,
                    const std::vector<std::string>& switches = {})
       : program_(switches.empty() ? shared() : std::make_shared<BrowserProgram>(switches)),
@@ -147,7 +147,7 @@ class Browser {
          {{"offline", true}, {"latency", 0}, {"downloadThroughput", 0}, {"uploadThroughput", 0}});
     look(width, height, is_dark);
   }
-  /// From now on the window is so large, and its user wants it dark or light.
+  /// Sets the size of the window and whether its user prefers dark pages.
   void look(int width, int height, bool is_dark) {
     call("Emulation.setDeviceMetricsOverride",
          {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
@@ -155,19 +155,19 @@ class Browser {
          {{"features",
            {{{"name", "prefers-color-scheme"}, {"value", is_dark ? "dark" : "light"}}}}});
   }
-  /// Whatever a test does, a page that can draw has nothing to complain of.
+  /// In any test, a page that can draw must not have written complaints.
   ~Browser() {
     if (can_draw_) CHECK(complaints_ == std::vector<std::string>{});
     session_.clear();
     try {
       call("Target.closeTarget", {{"targetId", tab_}});
-    } catch (const std::exception&) {  // the program has ended: the test has met that before
+    } catch (const std::exception&) {  // the program has ended, and the test knows
     }
   }
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
 
-  /// Opens a page from disk, `state` behind its "#", and waits until `is_ready` holds there.
+  /// Opens a page from disk, with `state` behind its "#", and waits until `is_ready` is true there.
   void open(const std::filesystem::path& page, const std::string& state,
             const std::string& is_ready) {
     call("Page.navigate", {{"url", "about:blank"}});
@@ -175,7 +175,7 @@ class Browser {
     wait_for(is_ready);
   }
 
-  /// The value of an expression; of a promise what it is kept with.
+  /// The value of an expression; for a promise, the value that it resolves to.
   Json js(const std::string& expression) {
     const Json result =
         call("Runtime.evaluate",
@@ -193,7 +193,7 @@ class Browser {
     throw std::runtime_error("never true: " + expression);
   }
 
-  /// In the page's pixels, from the window's left upper corner.
+  /// The position is in the page's pixels, from the upper left corner of the window.
   void click(double x, double y) {
     for (const char* type : {"mousePressed", "mouseReleased"})
       call("Input.dispatchMouseEvent",
@@ -227,7 +227,7 @@ class Browser {
     if (is_bad) complaints_.push_back(event.at("params").dump().substr(0, 500));
   }
 
-  /// What pages wrote to the console as errors or warnings, exceptions, failed requests.
+  /// Errors and warnings that pages wrote to the console, exceptions, failed requests.
   std::vector<std::string> complaints_;
   const std::shared_ptr<BrowserProgram> program_;
   const bool can_draw_;

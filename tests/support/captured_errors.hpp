@@ -1,5 +1,5 @@
 #pragma once
-// Standard error of this process, caught.
+// The captured standard error of this process.
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 
 namespace ballast {
 
-/// Catches what is written to standard error while it lives.
+/// Captures standard error during its lifetime.
 class CapturedErrors {
  public:
   CapturedErrors() : file_(std::tmpfile()), saved_(dup(STDERR_FILENO)) {
@@ -19,7 +19,7 @@ class CapturedErrors {
     close(saved_);
     std::fclose(file_);
   }
-  /// Caught so far.
+  /// The number of bytes captured so far.
   long bytes() const {
     std::fflush(stderr);
     return static_cast<long>(lseek(fileno(file_), 0, SEEK_END));

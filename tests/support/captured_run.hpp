@@ -1,5 +1,5 @@
 #pragma once
-// A small run with captured problems, for tests of what is shown of them.
+// A small run with captured problems, for tests of the pages and files that show them.
 
 #include "experiments/run/run.hpp"
 #include "problems/files/captured_problem.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// What work complains of.
+// The message of the exception that a piece of work throws.
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace ballast {
 
-/// The text of the exception that `work` throws; "" when it throws none.
+/// The text of the exception that `work` throws; "" if it throws none.
 template <class Expected = Error, class Work>
 std::string complaint(const Work& work) {
   try {
@@ -20,7 +20,7 @@ std::string complaint(const Work& work) {
   return "";
 }
 
-/// The same of a file, without its name, with which the one line begins.
+/// The same for work on a file, without the file's name, with which the one-line text must begin.
 template <class Work>
 std::string complaint_about(const std::filesystem::path& file, const Work& work) {
   const std::string text = complaint(work), name = file.string() + ": ";

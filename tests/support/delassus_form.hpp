@@ -1,11 +1,11 @@
 #pragma once
-// Problems with a stored W, made from the dynamics form: for tests of what takes both.
+// Problems with a stored W, made from the dynamics form, for tests of code that takes both forms.
 
 #include "problems/algebra/delassus.hpp"
 
 namespace ballast {
 
-/// u = W r + q with three rows per contact, and nothing known of bodies.
+/// u = W r + q with three rows per contact, without bodies.
 inline FrictionProblem stored_problem(std::vector<double> friction, const Eigen::MatrixXd& w,
                                       const Eigen::VectorXd& q) {
   return local_problem(w.sparseView(), q, std::move(friction));

@@ -1,5 +1,5 @@
 #pragma once
-// A variable of the environment, set as long as a test case lives.
+// Sets an environment variable during its lifetime.
 
 #include <stdlib.h>
 

@@ -6,8 +6,8 @@
 
 namespace ballast {
 
-/// While alive, no file of this process can grow beyond `bytes`: a disk that is full, for whoever
-/// runs the test.
+/// During its lifetime no file of this process can grow beyond `bytes`. This simulates a full disk
+/// for any user who runs the test.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

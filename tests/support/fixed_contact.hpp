@@ -1,5 +1,5 @@
 #pragma once
-// Contacts that nothing can move: their W is zero.
+// Contacts between two things that never move: their W is zero.
 
 #include "problems/algebra/friction_problem.hpp"
 
@@ -14,7 +14,7 @@ inline void add_fixed_contact(FrictionProblem& problem, const Eigen::VectorXd& b
   problem.dynamics.bias.tail(rows) = bias;
 }
 
-/// It moves into itself at 1 m/s and slides, and no impulse can help.
+/// The same, approaching at 1 m/s and sliding, which no impulse can change.
 inline void add_fixed_contact(FrictionProblem& problem) {
   add_fixed_contact(problem, Eigen::Vector3d(-1.0, 0.5, 0.5));
 }

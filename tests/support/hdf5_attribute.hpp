@@ -1,5 +1,5 @@
 #pragma once
-// An attribute of an HDF5 file, read by HDF5 alone: production only writes them.
+// Reads an attribute of an HDF5 file by HDF5 alone, as the program only writes attributes.
 
 #include <hdf5.h>
 
@@ -10,7 +10,7 @@
 
 namespace ballast {
 
-/// A text of any length. `object`: a group or a dataset, "/" for the file.
+/// An attribute that is a text of any length. `object`: a group or a dataset, "/" for the file.
 inline std::string hdf5_attribute(const std::filesystem::path& path, const std::string& object,
                                   const std::string& name) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);

@@ -1,5 +1,5 @@
 #pragma once
-// What deflated() and base64() packed, unpacked: production only packs.
+// The inverses of deflated() and base64(), as the program itself never unpacks.
 
 #include <zlib.h>
 
@@ -11,7 +11,7 @@
 
 namespace ballast {
 
-/// Of at most 16 MiB.
+/// Inflates to at most 16 MiB.
 inline std::string inflated(std::string_view bytes) {
   std::string text(size_t{1} << 24, '\0');
   uLongf size = text.size();

@@ -1,5 +1,5 @@
 #pragma once
-// The ballast program, killed with -9 in the middle of its work.
+// The ballast program, killed with -9 while it works.
 
 #include <filesystem>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace ballast {
 
-/// Runs the program, and kills it after `seconds`: its children die with it. Its exit code, or -1
-/// when it was killed.
+/// Runs the program and kills it after `seconds`; its children die with it. Returns its exit code,
+/// or -1 if it was killed.
 inline int run_and_kill(double seconds, const std::vector<std::string>& arguments,
                         const std::filesystem::path& log) {
   const auto program = start_program(BALLAST_PROGRAM, arguments, log);

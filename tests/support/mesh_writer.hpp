@@ -1,5 +1,5 @@
 #pragma once
-// Polyhedra as mesh files, for tests of what reads them.
+// Writes polyhedra as mesh files, for tests of mesh readers.
 
 #include <charconv>
 #include <filesystem>
@@ -11,13 +11,13 @@
 
 namespace ballast {
 
-/// Appends the shortest decimal number that reads back as the same double.
+/// Appends the shortest decimal number that is read back as the same double.
 inline void append_number(std::string& text, double value) {
   char digits[32];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
-/// As an OBJ file; the numbers read back as the same bits.
+/// The text of an OBJ file. Its numbers are read back as the same bits.
 inline std::string obj_text(const Polyhedron& polyhedron) {
   std::string text = "# convex polyhedron, faces counter-clockwise from outside, metres\n";
   for (const Vec3& p : polyhedron.vertices()) {
@@ -33,7 +33,7 @@ inline std::string obj_text(const Polyhedron& polyhedron) {
   return text;
 }
 
-/// As a text STL; the numbers read back as the same bits.
+/// The text of a text STL. Its numbers are read back as the same bits.
 inline std::string stl_text(const Polyhedron& polyhedron) {
   std::string text = "solid ballast\n";
   const auto append = [&](const char* keyword, const Vec3& p) {
@@ -53,7 +53,7 @@ inline std::string stl_text(const Polyhedron& polyhedron) {
   return text + "endsolid ballast\n";
 }
 
-/// .obj as polygons, everything else as text STL.
+/// Writes .obj with polygons as faces, any other suffix as text STL.
 inline void write_mesh(const std::filesystem::path& file, const Polyhedron& polyhedron) {
   std::ofstream(file) << (file.extension() == ".obj" ? obj_text(polyhedron) : stl_text(polyhedron));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What every page that we write must be: well-formed, with ids of its own, and readable offline.
+// Requirements of every page that we write: well-formed, with unique ids, and readable offline.
 
 #include <algorithm>
 #include <cctype>
@@ -12,14 +12,14 @@
 
 namespace ballast {
 
-/// What the page's scripts know: JSON.
+/// The data of the page's scripts, as JSON.
 inline std::string page_data(const std::string& page) {
   const size_t begin = page.find('>', page.find("id=\"page-data\"")) + 1;
   return inflated(from_base64(page.substr(begin, page.find("</script>", begin) - begin)));
 }
 
-/// Elements are closed in the order they were opened (void elements and <x/> aside). Returns the
-/// first complaint.
+/// Checks that elements are closed in the order in which they were opened (except void elements and
+/// <x/>). Returns the first fault.
 inline std::string nesting_fault(const std::string& page) {
   const std::set<std::string> is_void{"meta", "br", "!DOCTYPE", "img"};
   std::vector<std::string> open;
@@ -48,7 +48,7 @@ inline std::string nesting_fault(const std::string& page) {
   return open.empty() ? "" : "open at the end: " + open.back();
 }
 
-/// The page without what stands in its scripts.
+/// The page without the contents of its scripts.
 inline std::string without_scripts(std::string page) {
   for (size_t at = 0; (at = page.find("<script", at)) != std::string::npos; ++at) {
     const size_t begin = page.find('>', at) + 1;
@@ -67,7 +67,7 @@ inline std::vector<std::string> ids_in(const std::string& whole) {
   return ids;
 }
 
-/// xmlns values aside, nothing in the page may name a place outside.
+/// The page without xmlns values, which alone may name a place outside.
 inline std::string without_xmlns(std::string page) {
   for (size_t at = 0; (at = page.find("xmlns", at)) != std::string::npos;) {
     const size_t quote = page.find('"', at);
@@ -86,7 +86,7 @@ inline void check_page(const std::string& page) {
   CHECK_THAT(without_xmlns(page), !Contains("http:") && !Contains("https:") &&
                                       !Contains("<script src") && !Contains("@import") &&
                                       !Contains("<link"));
-  // a picture stands in the page itself
+  // Pictures are contained in the page.
   for (size_t at = 0; (at = page.find(" src=", at)) != std::string::npos; ++at)
     CHECK_THAT(page.substr(at, 30), Catch::StartsWith(" src=\"data:image/"));
 }

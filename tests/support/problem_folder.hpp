@@ -9,7 +9,7 @@
 
 namespace ballast {
 
-/// A folder "in" with the same problem twice, once deeper; "out" is not made.
+/// A folder "in" with the same problem twice, once in a subfolder. The folder "out" is not made.
 struct ProblemFolder {
   TemporaryFolder folder;
   KnownSolution known = make_known_solution({.bodies = 6, .contacts = 12});

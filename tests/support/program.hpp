@@ -15,15 +15,15 @@ inline ProgramResult ballast_program(const std::vector<std::string>& arguments) 
   return run_program(BALLAST_PROGRAM, arguments, 120.0);
 }
 
-/// The same with a shell's words before it: limits, redirections. `words` ends in the call of "$@".
+/// The same after the words of a shell: limits, redirections. `words` ends with the call of "$@".
 inline ProgramResult ballast_in_shell(const std::string& words,
                                       std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"-c", words, "sh", BALLAST_PROGRAM});
   return run_program("/bin/sh", arguments, 120.0);
 }
 
-/// It failed as failures shall: this exit code and one line on standard error, which names all of
-/// `named`.
+/// Checks a failure: the program ended with this exit code and wrote one line to standard error,
+/// which names all of `named`.
 inline void check_failure(const ProgramResult& result, ExitCode code,
                           const std::vector<std::string>& named) {
   CHECK_FALSE(result.timed_out);

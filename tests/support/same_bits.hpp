@@ -1,5 +1,5 @@
 #pragma once
-// What of a run must be the same to the last bit, whatever happened to the program in between.
+// The data of a run that must be the same to the last bit, even if the program was stopped between.
 
 #include <string>
 
@@ -9,7 +9,7 @@
 
 namespace ballast {
 
-/// All columns but the wall clocks, as bytes.
+/// All columns except the wall clocks, as bytes.
 inline std::string physics_of(const std::filesystem::path& folder) {
   std::string bytes;
   for (const StepRecord& row : read_steps(folder))
@@ -19,7 +19,7 @@ inline std::string physics_of(const std::filesystem::path& folder) {
   return bytes;
 }
 
-/// Poses.
+/// The poses as bytes.
 inline std::string bytes_of(const MotionState& state) {
   std::string bytes;
   for (const Pose& pose : state.pose) {
@@ -29,7 +29,7 @@ inline std::string bytes_of(const MotionState& state) {
   return bytes;
 }
 
-/// The last poses.
+/// The poses of the run's checkpoint as bytes.
 inline std::string state_of(const std::filesystem::path& folder) {
   return bytes_of(read_checkpoint(RunFolder(folder).checkpoint()).state);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A small system and made-up rows for tests of records and exports: nothing in it is dynamics.
+// A small system and made-up rows for tests of records and exports, without any dynamics.
 
 #include <bit>
 #include <cmath>
@@ -27,13 +27,13 @@ inline std::string file_bytes(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// As a new file: file systems that make an overwriting safe on disk are a thousand times slower.
+/// Writes a new file: some file systems are a thousand times slower in overwriting a file safely.
 inline void put_bytes(const std::filesystem::path& file, std::string_view bytes) {
   std::filesystem::remove(file);
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-/// The message of the Error that `action` throws; fails the test when it throws none.
+/// The message of the Error that `action` throws. Fails the test if it throws none.
 template <class Action>
 std::string run_error(Action&& action) {
   try {
@@ -79,7 +79,7 @@ inline MechanicalSystem sample_system() {
   return system;
 }
 
-/// Positions inside the box, walls where they belong; all else random. Depends on `step` alone.
+/// Positions in the box, walls at their places; all else is random. Depends on `step` alone.
 inline MotionState sample_state(const MechanicalSystem& system, long step) {
   Random random(1000 + static_cast<std::uint64_t>(step));
   MotionState state;
@@ -105,7 +105,7 @@ inline MotionState sample_state(const MechanicalSystem& system, long step) {
   return state;
 }
 
-/// A row with every column different, and the numbers that text formats lose first.
+/// A row with different values in every column, among them numbers that text formats easily lose.
 inline StepRecord sample_row(long step) {
   Random random(5000 + static_cast<std::uint64_t>(step));
   StepRecord row;

@@ -1,5 +1,5 @@
 #pragma once
-// The obvious twin of every Gauss-Seidel sweep: dense matrices, one contact after the other.
+// The simple twin of every Gauss-Seidel sweep: dense matrices, one contact after the other.
 
 #include <numeric>
 #include <vector>
@@ -13,22 +13,22 @@
 
 namespace ballast {
 
-/// An order that gives what a sweep over bodies gives, where no wall is driven.
+/// An order with the same result as a sweep over bodies, if no wall is driven.
 inline std::vector<int> plan_order(const FrictionProblem& problem) {
   SweepPlan plan;
   plan.prepare(problem);
   return plan.contacts();
 }
 
-/// The contacts as they are listed.
+/// The contacts in their own order.
 inline std::vector<int> in_order(const FrictionProblem& problem) {
   std::vector<int> contacts(static_cast<size_t>(problem.contact_count()));
   std::iota(contacts.begin(), contacts.end(), 0);
   return contacts;
 }
 
-/// One sweep in the given order; each contact is solved by itself against all others. `w`, `q`: of
-/// the whole problem, dense.
+/// One sweep in the given order, which solves each contact by itself against all others. `w`, `q`:
+/// the dense W and q of the whole problem.
 template <class Order>
 void slow_sweep(const FrictionProblem& problem, const Eigen::MatrixXd& w, const Eigen::VectorXd& q,
                 const Order& order, Impulses& r) {
@@ -46,8 +46,8 @@ void slow_sweep(const FrictionProblem& problem, const Eigen::MatrixXd& w, const 
   }
 }
 
-/// |change|^2 of impulses in a sweep's coordinates. Over bodies: y = r_N + c . r_T in place of r_N;
-/// in groups these are scaled so that W_NN = s1 = 1.
+/// |change|^2 of impulses in the coordinates of a sweep. Over bodies y = r_N + c . r_T replaces
+/// r_N; in groups the coordinates are scaled so that W_NN = s1 = 1.
 inline double swept_square(const FrictionProblem& problem, const Impulses& change,
                            bool in_groups = false) {
   if (!problem.has_dynamics) return change.squaredNorm();

@@ -1,5 +1,5 @@
 #pragma once
-// A problem given to a solver once, as most tests of solvers do.
+// Gives a problem to a solver once, as most tests of solvers do.
 
 #include <memory>
 
@@ -7,19 +7,19 @@
 
 namespace ballast {
 
-/// What the solver says, from no impulses.
+/// The solver's answer, from no impulses.
 inline Solved from_rest(Solver& solver, const FrictionProblem& problem, const Budget& budget) {
   solver.prepare(problem);
   return solver.solve(problem, Impulses::Zero(problem.row_count()), budget);
 }
 
-/// The same with what the judge says of it, from `start` or no impulses.
+/// The solver's answer with the judge's result, from `start` or no impulses.
 inline SolverRun judged_by(std::unique_ptr<Solver> solver, const FrictionProblem& problem,
                            const Budget& budget, const Impulses& start = {}) {
   return SolverRunner().run(*solver, problem, start, budget);
 }
 
-/// rms over rows of q [m/s]: what errors are small against.
+/// The rms over rows of q [m/s], the scale for errors.
 inline double velocity_scale(const FrictionProblem& problem) {
   return contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Records made up from formulas: a vibrated box whose wall follows Eq. 2 with a force-displacement
-// law like that of the paper's Fig. 4, so that its fits, phases and gains are known. Nothing here
-// is a result.
+// law like that in the paper's Fig. 4, so that its fits, phases and gains are known. They are no
+// results.
 
 #include <algorithm>
 #include <cmath>
@@ -26,13 +26,13 @@ struct SyntheticBox {
   double first_contraction = 6e-3;                     ///< [m]
   double ratchet = 0.05e-3;                            ///< contraction per period [m]
   double solid_initial = 0.501, solid_jump = 0.018, solid_gain = 0.0012;
-  double noise = 1.0;      ///< of f_g, iterations and times: 0 gives the bare formulas
+  double noise = 1.0;      ///< of f_g, iterations and times; 0 gives the bare formulas
   double jam_slip = 2e-6;  ///< |v| while jammed [m/s]
 };
 
 namespace synthetic {
 
-/// The wall by itself: semi-implicit Euler on m_w dv/dt = f_g - f between jams at x_jam.
+/// The wall alone: semi-implicit Euler on m_w dv/dt = f_g - f between jams at x_jam.
 class Wall {
  public:
   Wall(const SyntheticBox& box) : box_(box) {}
@@ -52,7 +52,7 @@ class Wall {
     }
     v += h * (law() - f) / box_.wall_mass;
     x += h * v;
-    force = law();                  // of the position that is recorded with it
+    force = law();                  // at the position that is recorded with it
     if (v < 0.0 && x <= x_back_) {  // stopped within one step: the impulse shows as a peak of f_g,
                                     // cut to something drawable
       x = x_back_;
@@ -131,7 +131,7 @@ inline std::vector<StepRecord> synthetic_box(const SyntheticBox& box = {}) {
   return steps;
 }
 
-/// What the record of such a box does not say.
+/// The facts of such a box, which its record does not contain.
 inline RunFacts facts_of(const SyntheticBox& box) {
   RunFacts facts;
   facts.step = box.h;
@@ -169,7 +169,7 @@ inline std::vector<StepRecord> synthetic_slide() {
   return steps;
 }
 
-/// As the log of a run still going; columns named in `without` are not known in any row.
+/// Writes the log of an unfinished run. Columns named in `without` are unknown in every row.
 inline void write_rows(const std::filesystem::path& folder, const std::vector<StepRecord>& steps,
                        const std::vector<std::string>& without = {}) {
   std::filesystem::create_directories(folder / "log");

@@ -1,5 +1,5 @@
 #pragma once
-// A folder that lives as long as a test case.
+// A folder that exists as long as its object.
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-// What the reader may ask for: tolerance, start, families, sizes, backends, words of a case's name.
-// The bar stands before the tables; what is asked stands in the address bar.
+// The bar of the reader's choices: tolerance, start, families, sizes, backends, part of a case's
+// name. It stands before the tables; the choices stand in the address bar.
 
 function select_of(name, words, all, value) {
   const options = all.map((one) => element("option", { value: one, selected: one === value }, one));
@@ -13,7 +13,7 @@ function field_of(name, words, kind, hint) {
       choice.set(name, event.target.value || null) }));
 }
 
-/// A switch for each of `all`; those switched off stand in the address.
+/// Makes a switch for each of `all`; those switched off stand in the address.
 function switches_of(name, words, all) {
   const switch_of = (one) => element("label", {}, element("input", {
     type: "checkbox", name, value: one, checked: !choice.has(name, one),

@@ -1,11 +1,11 @@
-// The page of a comparison: what is asked for stands first, and each section answers it in the
-// place of its tables and figures for every tolerance and start.
+// The page of a comparison: the bar of choices stands first, and each section shows the selection
+// in the place of its tables and figures for every tolerance and start.
 
 const sections = [["backends", backends_view], ["matrix", matrix_view], ["profiles", profiles_view],
                   ["families", family_view], ["cost", cost_view],
                   ["case-figures", case_view]];
 
-/// A section's holder of what is made; tables that the program wrote stay for print.
+/// Adds the holder of a section's live parts; tables that the program wrote stay for print.
 function holder_of(id) {
   const section = document.getElementById(id);
   if (!section) return null;
@@ -19,7 +19,7 @@ function holder_of(id) {
 /// A row of each case and backend.
 const row_of = new Map(rows.map((row) => [row.case + "\n" + row.solver, row]));
 
-/// Rows of "What must not happen" whose case or backend is not chosen are hidden.
+/// Hides the rows of "What must not happen" whose case or backend is not chosen.
 function filter_failures() {
   for (const line of document.querySelectorAll("#failures tbody tr")) {
     const row = row_of.get(line.cells[0].textContent + "\n" + line.cells[1].textContent);
@@ -31,7 +31,7 @@ const bar = asks(), holders = new Map();
 document.querySelector("#backends").before(bar.element);
 for (const [id] of sections) holders.set(id, holder_of(id));
 
-/// Of many rows, every section is seen before the next is made.
+/// With many rows, waits until a section is painted before the next one is made.
 const painted = () => rows.length > 10000 &&
   new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
 

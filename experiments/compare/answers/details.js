@@ -1,5 +1,5 @@
 // The window in the page's corner with one solve, opened from a point or a cell: its numbers, its
-// history, and how it is made again. Which one is open stands in the address.
+// history, and how it is made again. The address names the one that is open.
 
 const facts_of = (row) => element("table", { class: "facts" }, element("tbody", {}, ...[
   ["what came of it", row.is_solved ? "solved" : reason_of(row)],

@@ -7,7 +7,7 @@ const longest_history = (mine, solver) =>
   mine.filter((row) => row.solver === solver && history_of(row).length)
     .sort((a, b) => a.tolerance - b.tolerance)[0];
 
-/// A history as a line that ends where the backend did.
+/// A history as a line that ends when the backend stopped.
 function history_curve(row) {
   const points = history_of(row).filter((p) => p.x > 0 && p.y > 0);
   const last = points.at(-1);
@@ -53,7 +53,7 @@ function family_view() {
   const curve_of = (solver) => {
     const histories = cases.map((of_case) => longest_history(of_case, solver)).filter(Boolean)
       .map(history_of);
-    // a mean over other cases would not compare
+    // a mean over fewer cases could not be compared
     const points = histories.length < cases.length ? [] : mean_history(histories, 160);
     return { title: solver, ...style_of(solver), points };
   };

@@ -1,5 +1,5 @@
-// The rows of the comparison, as results.csv has them, with numbers for what is one. A column comes
-// as one text, and is taken apart when somebody first asks for it.
+// The rows of the comparison as in results.csv, with the `counted` columns as numbers. A column
+// comes as one text, which is split when it is first read.
 
 const counted = ["tolerance", "repeat", "max_seconds", "error", "seconds", "iterations",
                  "natural_map_rms", "contacts", "rank_deficiency", "mass_ratio", "velocity_scale",
@@ -10,13 +10,13 @@ class Row {
   constructor(place) { this.place = place; }
   get is_solved() { return this.verdict === "solved"; }
   get is_denied() { return this.verdict === "denied"; }
-  /// As results.csv has them.
+  /// The row's cells as in results.csv.
   get cells() { return column_names.map((name) => this[name + "_text"]); }
 }
 
 const cells_of_text = (text) => text.split("\n").slice(0, -1);
 
-/// Gives rows the cells of `text` as row[name + "_text"], and as row[name] what `read` makes of it.
+/// Gives rows the cells of `text` as row[name + "_text"], and `read` of them as row[name].
 function add_column(name, text, read) {
   let texts = null, values = null;
   const get_texts = () => (texts ??= cells_of_text(text));
@@ -42,7 +42,7 @@ const all_contacts = rows.map((row) => row.contacts);
 
 const style_of = (solver) => curve_style(all_solvers.indexOf(solver));
 
-/// What is chosen: of an address by hand, only what there is.
+/// The reader's choices. Values that no row has, in an address typed by hand, are ignored.
 const chosen = {
   one: (name, all) => (all.includes(choice.get(name)) ? choice.get(name) : all[0]),
   get tolerance() { return this.one("tolerance", all_tolerances); },
@@ -70,7 +70,7 @@ const command_of = (row) => page_data.again
   .replace("{case}", () => row.word).replace("{solver}", row.solver)
   .replace("{tolerance}", row.tolerance_text).replace("{start}", row.start);
 
-/// Errors of a row's history as what was reached by then: [{x: seconds, y: error, row}].
+/// The least errors so far of a row's history: [{x: seconds, y: error, row}].
 function history_of(row) {
   if (row.reached) return row.reached;
   const flat = row.history ? row.history.split(" ").map(Number) : [];

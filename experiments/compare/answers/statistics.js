@@ -1,5 +1,5 @@
-// Medians, means and profiles of a selection of rows; medians and means are those that
-// compare_page.cpp computes of all cases.
+// Medians, means and profiles of a selection of rows. The medians and means are defined as in
+// compare_page.cpp, which computes those of all cases.
 
 /// One case by one backend, over its repeats. Times are infinite where it isn't solved.
 function cell_of(repeats) {
@@ -27,7 +27,7 @@ function selection() {
   return { solvers, cases };
 }
 
-/// exp(mean(log(x + shift))) - shift, over x or x/y.
+/// Shifted geometric means: exp(mean(log(x + shift))) - shift, and that of (x + shift)/(y + shift).
 const log_mean = (values) => Math.exp(values.reduce((a, b) => a + b, 0) / values.length);
 const shifted_mean = (times) =>
   log_mean(times.map((t) => Math.log(t + page_data.shift))) - page_data.shift;
@@ -56,8 +56,8 @@ function summaries({ solvers, cases }) {
   return lines.sort((a, b) => b.solved - a.solved || a.mean - b.mean);
 }
 
-/// The fraction of cases with a value up to x, as steps from `first` to `last`; a step's point
-/// knows the case that it is.
+/// The fraction of cases with a value up to x, as steps from `first` to `last`; a step's point has
+/// the row of its case.
 function counted_steps(values, cases, first, last) {
   const order = values.map((value, k) => k).sort((a, b) => values[a] - values[b]);
   const points = [{ x: first, y: 0 }];
@@ -72,8 +72,8 @@ function counted_steps(values, cases, first, last) {
 const decade_above = (value) => 10 ** Math.ceil(Math.log10(value) - 1e-9);
 const decade_below = (value) => 10 ** Math.floor(Math.log10(value) + 1e-9);
 
-/// The share of the cases that each backend solves at a cost up to x, from `first` on or from the
-/// decade below the least cost: `cost_of(median, case)`.
+/// The share of the cases that each backend solves at a cost, `cost_of(median, case)`, up to x. It
+/// begins at `first`, or at the decade below the least cost.
 function cost_profiles({ solvers, cases }, cost_of, first = null) {
   const costs = solvers.map((solver, s) => cases.map((one) => cost_of(one.cells[s].median, one)));
   const known = costs.flat().filter((cost) => Number.isFinite(cost) && cost > 0);
@@ -90,7 +90,7 @@ const time_ratio = (median, { fastest }) =>
 /// Moré and Wild, with time per contact as the unit of cost.
 const time_per_contact = (median, { row }) => median / Math.max(1, row.contacts);
 
-/// Geometric mean over histories of the least error by then, at `count` times.
+/// The geometric mean over histories of the least error so far, at `count` + 1 times.
 function mean_history(histories, count) {
   const times = histories.flat().map((p) => p.x).filter((x) => x > 0);
   const [first, last] = extent(times);

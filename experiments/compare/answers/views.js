@@ -1,4 +1,4 @@
-// The sections of the page, made anew for what is chosen.
+// The sections of the page, made again for each selection.
 
 const right = (title) => ({ title, number: true });
 const left = (title) => ({ title });
@@ -17,7 +17,7 @@ function backends_view(selected) {
   return [table_of("backends", columns, lines)];
 }
 
-/// A time that opens its row, or why there is none.
+/// A cell with a time, or with the reason why there is none; it opens its row.
 function outcome_cell(cell) {
   if (!cell.row) return "";
   const open = () => choice.set("row", cell.row.key);
@@ -48,7 +48,7 @@ function profile_chart(selected, title, label, { first, last, curves }) {
 }
 
 function profiles_view(selected) {
-  // what a backend did not try is no failure
+  // a case that a backend did not try is no failure
   const cases = selected.cases.filter((c) => c.cells.every((cell) => cell.row));
   const tried = { ...selected, cases };
   if (!cases.length) return [];
@@ -64,7 +64,7 @@ function profiles_view(selected) {
   ];
 }
 
-/// What stands above a chart.
+/// The words above a chart.
 const caption = (title, words) => element("p", {}, element("b", {}, title), " " + words);
 
 /// A choice of one of `all` beside a chart.

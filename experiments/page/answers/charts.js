@@ -1,11 +1,11 @@
-// One chart: Chart.js draws, and this tells it what, reads out values and listens to keys.
+// One chart. Chart.js draws it; this module tells it what to draw, reads values out, handles keys.
 //
-// A figure is {title, x, y, curves, lines}. Axes: {label, log, min, max, low, high}, from min to
-// max where these are given, else at least from low to high; a label is HTML of the page's own.
-// Curves: {title, ink, dash, width, mark: "line" | "points" | "area", stepped, points}, where a
-// point is {x, y, ...} with what `told(curve, point)` and `opened(point)` need; an area's has its
-// lower bound `low`. Lines: {value, vertical, label}. Curves of one title are switched together by
-// the legend.
+// A figure is {title, x, y, curves, lines}. An axis is {label, log, min, max, low, high}: it goes
+// from min to max where these are given, else at least from low to high; its label is HTML that the
+// page wrote. A curve is {title, ink, dash, width, mark: "line" | "points" | "area", stepped,
+// points}. A point is {x, y, ...} and has what `told(curve, point)` and `opened(point)` need; a
+// point of an area has its lower bound `low`. A line is {value, vertical, label}. The legend
+// switches all curves of one title together.
 
 const charts = new Set();
 
@@ -17,12 +17,12 @@ const axis_of = (axis) => ({
   suggestedMax: axis.high,
   bounds: "ticks",
   border: { color: variable("grey") },
-  // a logarithmic axis has more ticks than numbers: lines stand at numbers only
+  // a logarithmic axis has more ticks than numbers: only ticks with numbers have grid lines
   grid: { color: ({ tick }) => (tick?.label ? variable("grid") : "transparent"), drawTicks: false,
           borderColor: variable("grey") },
   ticks: {
     color: variable("ink"),
-    includeBounds: false,  // numbers stand at round values alone
+    includeBounds: false,  // only round values have numbers
     padding: 6,
     autoSkipPadding: 12,
     maxRotation: 0,
@@ -32,7 +32,7 @@ const axis_of = (axis) => ({
       const is_power = Number.isInteger(Math.round(power * 1e9) / 1e9);
       if (places >= 2) return is_power ? "10" + raised(Math.round(power)) : "";
       const first = value / 10 ** Math.floor(power), digit = Math.round(first);
-      // the axis' own ends are not round
+      // the ends of the axis are ticks, too, and may not be round
       const is_round = Math.abs(first - digit) < 1e-6 && (places < 0.7 || [2, 5].includes(digit));
       return is_power || is_round ? number(value, 1) : "";
     },
@@ -62,8 +62,8 @@ function dataset_of(curve) {
   };
 }
 
-/// Below all else: what is between the points of areas and their lower bounds, then bars of the
-/// errors of points.
+/// Draws, below everything else, the areas between points and their lower bounds, then the error
+/// bars of points.
 const extents = {
   id: "extents",
   beforeDatasetsDraw(chart) {
@@ -97,7 +97,7 @@ const extents = {
   },
 };
 
-/// A dashed line across, which no legend names.
+/// A dashed line across the chart; it has no entry in the legend.
 function line_of(line, chart_points) {
   const along = line.vertical ? "y" : "x", across = line.vertical ? "x" : "y";
   const places = chart_points.map((point) => point[along]).filter((place) => place !== null);
@@ -110,7 +110,7 @@ function line_of(line, chart_points) {
   };
 }
 
-/// The words of lines across, at their right or upper ends.
+/// Writes the labels of the lines across the chart at their right or upper ends.
 const line_words = {
   id: "line_words",
   afterDatasetsDraw({ ctx, chartArea, data, scales: { x, y } }) {
@@ -132,7 +132,7 @@ const line_words = {
   },
 };
 
-/// The x axis: a linear one ends where the curves do.
+/// The x axis. A linear one ends where the curves end, unless its own ends are given.
 function along_of({ x, curves }) {
   const places = curves.flatMap((curve) => curve.points.map((point) => point.x));
   if (x.log || !places.length) return x;
@@ -140,9 +140,9 @@ function along_of({ x, curves }) {
   return high > low ? { ...x, min: x.min ?? low, max: x.max ?? high } : x;
 }
 
-/// The chart as an element. `told` gives the words of a point; `opened`, if there is one, is called
-/// for a point that is clicked. `hidden` is the name of the list in the address bar that holds the
-/// titles switched off.
+/// Returns a chart: {element, draw, refresh, gone}. `told` gives the words of a point; `opened`, if
+/// there is one, is called for a point that is clicked. `hidden` is the name of the list in the
+/// address bar that holds the titles of the curves that are switched off.
 function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
   const canvas = element("canvas", { tabindex: 0, role: "img", "aria-label": figure.title +
     ". Arrow keys go along the curves" + (opened ? ", Enter opens a point." : ".") });
@@ -182,7 +182,7 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
     Chart.defaults.font.family = getComputedStyle(said).fontFamily;
     Chart.defaults.font.size = 13;
     Chart.defaults.color = variable("ink");
-    // later curves stand above earlier ones, as in the drawn figure
+    // later curves are drawn above earlier ones, as in gnuplot's figure
     const sets = figure.curves.map((curve, k) => ({ ...dataset_of(curve), order: -k,
                                                     hidden: !is_shown(curve) }));
     if (all.length) sets.push(...(figure.lines ?? []).map((line) => line_of(line, all)));
@@ -206,7 +206,7 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
   up.innerHTML = figure.y.label;
   along.innerHTML = figure.x.label;
   const refresh = () => {
-    // a replay beside it changes the address, too
+    // a replay in the page changes the address, too: then no curve has changed
     if (figure.curves.every((curve, k) => chart?.isDatasetVisible(k) === is_shown(curve))) return;
     figure.curves.forEach((curve, k) => chart?.setDatasetVisibility(k, is_shown(curve)));
     chart?.update("none");

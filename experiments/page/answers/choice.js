@@ -1,5 +1,5 @@
-// What the reader has chosen stands in the address bar behind #, so that a link or a reload gives
-// the same view: #tolerance=1e-06&off=pgs&off=nncg. A name may stand several times: a list.
+// The reader's choices are kept in the address bar behind #, so that a link or a reload gives the
+// same view: #tolerance=1e-06&off=pgs&off=nncg. A name that occurs several times is a list.
 
 const choice = (() => {
   let text = "", values = new URLSearchParams();
@@ -15,7 +15,7 @@ const choice = (() => {
     const next = values.toString() || (text && "=");
     if (next === text) return;
     text = next;
-    // not history.replaceState: some browsers refuse it to files
+    // not history.replaceState: some browsers refuse it to pages opened from disk
     location.replace("#" + text);
   };
   read();
@@ -28,14 +28,14 @@ const choice = (() => {
     get: (name, otherwise = "") => values.get(name) ?? otherwise,
     list: (name) => values.getAll(name),
     has: (name, value) => values.getAll(name).includes(value),
-    /// A string, a list, or null: nothing chosen.
+    /// Sets a choice to a string, a list, or null (nothing chosen), and tells the listeners.
     set(name, value) {
       this.keep({ [name]: value });
       for (const tell of listeners) tell();
     },
-    /// Several at once, which the page shows already: its listeners are not told.
+    /// Sets several choices that the page shows already: the listeners are not told.
     keep(changes) {
-      read();  // a replay in the page keeps its own there
+      read();  // a replay in the page keeps its choices in the address, too
       for (const [name, value] of Object.entries(changes)) {
         values.delete(name);
         for (const one of [value ?? []].flat()) values.append(name, one);

@@ -1,7 +1,7 @@
-// Elements of the page, made in one line each.
+// Makes elements of the page in one line each; downloads, copies and unpacks data.
 
-/// An element with attributes and children (elements or strings; null is left out). `on...`
-/// attributes are listeners.
+/// Returns an element with attributes and children (elements or strings; null is left out).
+/// Attributes `on...` are listeners.
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -13,7 +13,7 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-/// A button; `attributes` as above.
+/// Returns a button; `attributes` are those of element().
 function button(words, pressed, attributes = {}) {
   return element("button", { type: "button", onclick: pressed, ...attributes }, words);
 }
@@ -28,8 +28,8 @@ function download(name, text) {
   URL.revokeObjectURL(address);
 }
 
-/// Puts `text` on the clipboard, and says so on the button that was pressed. Pages opened from disk
-/// have no clipboard interface in some browsers: then the old way, through a field.
+/// Puts `text` on the clipboard, and says so on the button that was pressed. In some browsers pages
+/// opened from disk have no clipboard interface: then the text is copied through a field.
 async function copy(text, pressed) {
   try {
     await navigator.clipboard.writeText(text);
@@ -46,8 +46,8 @@ async function copy(text, pressed) {
   setTimeout(() => { pressed.textContent = words; }, 1500);
 }
 
-/// The bytes that an element holds in base64 and deflated, taken chunk by chunk (a Response takes
-/// three times as long). The element is empty then.
+/// Returns the bytes that an element holds deflated and in base64, read chunk by chunk (a Response
+/// takes three times as long). Empties the element.
 async function unpacked(holder) {
   if (!window.DecompressionStream) throw new Error("this browser is too old to unpack the data");
   const letters = atob(holder.textContent), packed = new Uint8Array(letters.length), chunks = [];

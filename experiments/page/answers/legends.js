@@ -1,6 +1,6 @@
-// What stands around a chart: the legend's switches, and the keys that walk along its curves.
+// The parts around a chart: the legend with its switches, and the keys that walk along its curves.
 
-/// One switch for each title; curves of one title are switched together.
+/// The legend: one switch for each title, which switches all curves of that title.
 function legend_of(figure, is_shown, hidden) {
   const seen = new Map();
   for (const curve of figure.curves)
@@ -20,8 +20,8 @@ function legend_of(figure, is_shown, hidden) {
                  ...[...seen.values()].map(switch_of));
 }
 
-/// The keys of a chart: left and right along the values of a curve, up and down to the next curve,
-/// Home and End, Enter. `show` and `open` get {datasetIndex, index}.
+/// Returns the key listener of a chart: left and right walk along a curve, up and down change the
+/// curve, Home and End go to its ends, Enter opens. `show` and `open` get {datasetIndex, index}.
 function key_walk(figure, is_shown, show, open) {
   let at = null;
   const steps = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0],
@@ -37,7 +37,7 @@ function key_walk(figure, is_shown, show, open) {
     event.preventDefault();
     const place = Math.max(0, curves.findIndex(([one]) => one.datasetIndex === at?.datasetIndex));
     const spots = curves[(place + over + curves.length) % curves.length];
-    // on another curve, the value that is nearest along x
+    // on another curve the value with the nearest x is taken
     const away = (k) => (over ? Math.abs(spots[k].x - at.x) : Math.abs(spots[k].index - at.index));
     const from = at ? spots.reduce((best, _, k) => (away(k) < away(best) ? k : best), 0) : -1;
     at = spots[Math.min(spots.length - 1, Math.max(0, from + along))];

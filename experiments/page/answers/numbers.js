@@ -1,8 +1,8 @@
-// Numbers as the page writes them (experiments/page/text.cpp), and back.
+// Writes numbers as the pages do (experiments/page/text.cpp), and reads them back.
 
 const narrow_space = "\u202f", dash = "\u2013";
 
-/// Three significant digits; powers of ten below 1e-3 and from 1e6 on; a dash for what is none.
+/// `digits` significant digits; powers of ten below 1e-3 and from 1e6 on; a dash for NaN, infinity.
 function number(value, digits = 3) {
   if (!Number.isFinite(value)) return dash;
   const size = Math.abs(value);
@@ -18,7 +18,7 @@ const minus = (text) => text.replace("-", "−");
 const raised = (power) =>
   [...String(power)].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)])).join("");
 
-/// The same without zeros at its end: what is read off an axis.
+/// Five significant digits without zeros at the end, for values read off an axis.
 function short_number(value) {
   const text = number(value, 5);
   return text.includes(".") ? text.replace(/\.?0+(?=×|$)/, "") : text;
@@ -42,7 +42,7 @@ function value_of(text) {
   return Number(found[1]) * 10 ** Number(power) * unit;
 }
 
-/// [least, largest] of any number of values. (A call takes about 1e5 arguments.)
+/// [least, largest] of any number of values. (Math.min(...) takes only about 1e5 arguments.)
 function extent(values) {
   let low = Infinity, high = -Infinity;
   for (const value of values) {

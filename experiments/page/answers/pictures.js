@@ -1,8 +1,8 @@
-// Figures that were drawn by gnuplot become charts: the same curves, whose numbers stand in the
-// page. In print the drawn ones stay.
+// Turns figures drawn by gnuplot into charts of the same curves, whose numbers are in the page. In
+// print gnuplot's figures stay.
 
-/// The axis with an end for what it shows; a logarithmic one ends beside that, not at the next
-/// powers of ten.
+/// Returns the axis with a range that holds `places`. A logarithmic axis ends just beside them, not
+/// at the next powers of ten.
 function range_of(axis, places) {
   const shown = places.filter((place) => place !== null && (!axis.log || place > 0));
   if (!shown.length) return axis;
@@ -12,12 +12,12 @@ function range_of(axis, places) {
   return { ...axis, min: axis.min ?? low / beside, max: axis.max ?? high * beside };
 }
 
-/// A panel's curves from the page's data: x and y are lists there.
+/// The figure of a panel of the page's data, where x and y of a curve are lists.
 function panel_figure(picture, panel) {
   const curve_of = (curve) => ({
     ...curve,
     points: curve.x.map((x, k) => ({ x, y: curve.y[k], error: curve.error[k], low: curve.low[k] }))
-      // where a curve has no value it is broken
+      // a curve breaks where it has no value
       .map((point, k, all) => (point.x === null ? { x: all[k - 1]?.x ?? null, y: null } : point))
       .filter(({ x }) => x !== null && (!panel.x.log || x > 0))
       .map((point) => (point.y === null || (panel.y.log && point.y <= 0) ?
@@ -59,7 +59,7 @@ function draw_pictures(pictures) {
   }
 }
 
-/// A replay's first picture comes first.
+/// Calls `draw` when the page's replay, if there is one, has drawn its first picture or has failed.
 function after_replay(draw) {
   const waits = document.getElementById("replay") && !window.ballastReplay &&
     !window.ballastReplayError;

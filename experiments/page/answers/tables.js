@@ -1,5 +1,5 @@
-// Tables that sort: a click on a head, or Enter on it, sorts by that column; once more turns it
-// round. Cells sort by data-value where they have one, else by the number or the words in them.
+// Sortable tables: a click on a head, or Enter on it, sorts by that column; a second one reverses
+// the order. Cells sort by data-value where they have one, else by the number or the words in them.
 
 function sort_key(cell) {
   if (!cell) return NaN;
@@ -8,7 +8,7 @@ function sort_key(cell) {
   return Number.isNaN(value) ? text : value;
 }
 
-/// Numbers before words; what is missing comes last, whichever way round.
+/// Numbers come before words; missing values come last in both orders.
 function compare_keys(a, b, way) {
   const is_missing = (key) => key === "" || key === dash || Number.isNaN(key);
   if (is_missing(a) || is_missing(b)) return is_missing(a) - is_missing(b);
@@ -27,7 +27,7 @@ function sort_table(table, column, way) {
   });
 }
 
-/// Makes the heads of a table buttons. `sorted(column, way)` hears of it.
+/// Makes the heads of a table buttons that sort it and then call `sorted(column, way)`.
 function make_sortable(table, sorted = () => {}) {
   if (!table.tHead || table.tBodies[0].rows.length < 2) return;
   [...table.tHead.rows[0].cells].forEach((head, column) => {
@@ -43,8 +43,8 @@ function make_sortable(table, sorted = () => {}) {
   });
 }
 
-/// The order that a table was given last stands in the address (sort=name:column:way): a table that
-/// is made anew keeps it, and so does a link.
+/// The order last given to a table, [column, way], or null. The address keeps it
+/// (sort=name:column:way): a table that is made anew has it, and so does a link.
 function order_of(name) {
   const kept = choice.list("sort").find((one) => one.startsWith(name + ":"));
   return kept ? kept.slice(name.length + 1).split(":").map(Number) : null;
@@ -54,8 +54,8 @@ function keep_order(name, column, way) {
   choice.set("sort", [...others, `${name}:${column}:${way}`]);
 }
 
-/// A table. Columns: {title, number}. Rows are lists of cells: a string, or {text, value, kind,
-/// open}; `kind` is a class, `open` makes a button of the cell.
+/// Returns a table in a scrollable box. A column is {title, number}. A row is a list of cells, each
+/// a string or {text, value, kind, open}: `kind` is a class, `open` makes a button of the cell.
 function table_of(name, columns, rows) {
   const cell_of = (cell, k) => {
     const { text, value, kind, open } = typeof cell === "string" ? { text: cell } : cell;
@@ -72,7 +72,7 @@ function table_of(name, columns, rows) {
   make_sortable(table, (column, way) => keep_order(name, column, way));
   const order = order_of(name);
   if (order && columns[order[0]] && rows.length > 1) sort_table(table, ...order);
-  // a column that says nothing takes no room
+  // a column of empty cells is hidden
   columns.forEach((_, k) => {
     if (rows.length && [...table.tBodies[0].rows].every((row) => !row.cells[k].textContent))
       for (const row of table.rows) row.cells[k].hidden = true;

@@ -1,8 +1,8 @@
-// Where one looks from. One camera may serve several stages.
+// The camera: target, distance [m], yaw and pitch [degrees]. One camera may serve several stages.
 
 const viewAngle = 28 * Math.PI / 180;
 
-// The yaw and pitch of the views along the axes.
+// The yaw and pitch [degrees] of the views along the axes.
 const axisViews = { x: [0, 0], "-x": [180, 0], y: [90, 0], "-y": [-90, 0], z: [-90, 90],
   "-z": [-90, -90] };
 
@@ -15,13 +15,13 @@ class Camera {
     Object.assign(this, { target: [...this.data.centre], yaw: -52, pitch: 20,
       distance: 3.9 * this.data.radius });
   }
-  // From where along an axis: "x", "-x", ...
+  // Sets the view along an axis: "x", "-x", ...; other names change nothing.
   along(name) {
     if (!(name in axisViews)) return;
     const [yaw, pitch] = axisViews[name];
     Object.assign(this, { target: [...this.data.centre], yaw, pitch });
   }
-  // Along which axis one looks now; empty: along none.
+  // The name of the axis along which the camera looks; empty: none.
   name() {
     return Object.keys(axisViews).find((name) =>
       axisViews[name][0] === this.yaw && axisViews[name][1] === this.pitch &&
@@ -33,7 +33,7 @@ class Camera {
     return add(this.target, times([flat * Math.cos(yaw), flat * Math.sin(yaw), Math.sin(pitch)],
       this.distance));
   }
-  // Right, up, back.
+  // The unit vectors right, up and back.
   get axes() { return axesOf(this.eye, this.target); }
   turn(dx, dy) {
     this.yaw -= dx;
@@ -42,13 +42,13 @@ class Camera {
   zoom(factor) {
     this.distance = clamp(this.distance * factor, 0.15 * this.data.radius, 20 * this.data.radius);
   }
-  // By shares of the picture's height.
+  // Moves the picture by shares of its height.
   pan(dx, dy) {
     const [right, up] = this.axes;
     const size = 2 * this.distance * Math.tan(viewAngle / 2);
     this.target = add(this.target, add(times(right, -dx * size), times(up, dy * size)));
   }
-  // In narrow pictures the same width is seen.
+  // The projection into a picture of a given width / height. Narrow pictures show the same width.
   matrix(aspect) {
     const near = Math.max(0.02 * this.distance, this.distance - 3 * this.data.radius);
     const far = this.distance + 6 * this.data.radius;

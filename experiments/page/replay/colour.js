@@ -1,5 +1,5 @@
-// Ramps of 256 colours, in linear light, light at rest and dark at the top, so that neither end
-// vanishes in shade. Their stops have equal steps in OKLab (Ottosson 2020).
+// Ramps of 256 colours in linear light. They are light at the low end and dark at the top, so that
+// neither end vanishes in shade. Their stops have equal steps in OKLab (Ottosson 2020).
 
 const toSrgb = (c) => c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055;
 const toLinear = (c) => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
@@ -40,7 +40,7 @@ const colourAt = (ramp, share) => {
 };
 const cssColour = (linear) =>
   "rgb(" + linear.map((c) => Math.round(255 * toSrgb(c))).join(",") + ")";
-// A ramp, or its part between two shares.
+// The CSS gradient of a ramp, or of its part between two shares.
 const cssGradient = (ramp, from = 0, to = 1) => "linear-gradient(90deg," +
   Array.from({ length: 17 }, (_, k) =>
     cssColour(colourAt(ramp, from + (to - from) * k / 16))).join(",") + ")";

@@ -1,5 +1,5 @@
-// What the page holds, and the state of all bodies at any time between the stored frames. The parts
-// are those of experiments/view/view_page.cpp.
+// The data of the page, and the state of all bodies at any time between the stored frames.
+// experiments/view/view_page.cpp describes the parts of the data.
 
 const part = (id) => document.getElementById("replay-" + id);
 
@@ -8,7 +8,7 @@ async function partBytes(name) {
   return new Uint8Array(await bytes.arrayBuffer());
 }
 
-// Numbers of a typed array's kind: all their first bytes, then all second ones, ...
+// Numbers of a typed array's kind, from bytes in the order: all first bytes, all second ones, ...
 function numbersOf(bytes, Type) {
   const size = Type.BYTES_PER_ELEMENT, count = bytes.length / size;
   const whole = new Uint8Array(bytes.length);
@@ -17,8 +17,8 @@ function numbersOf(bytes, Type) {
   return new Type(whole.buffer);
 }
 
-// Zigzag differences, column after column, as values[frame * columns + column]. `order`: how often
-// differences were taken.
+// Decodes zigzag differences, stored column after column, to values[frame * columns + column].
+// `order` is how often differences were taken.
 function historyOf(codes, columns, order) {
   const values = new codes.constructor(codes.length);
   const frames = columns ? codes.length / columns : 0;
@@ -34,7 +34,7 @@ function historyOf(codes, columns, order) {
   return values;
 }
 
-// Of growing times the last one that is not after `time`, and the share of the way to the next.
+// The index of the last of growing times not after `time`, and the share of the way to the next.
 function placeIn(times, time) {
   let low = 0, high = times.length - 1;
   while (high - low > 1) {
@@ -76,7 +76,7 @@ class Data {
     this.readSeries(parts.series);
     this.readContacts(parts);
     this.errors = parts.errors;
-    // position, colour value, quaternion of every grain: what the picture is drawn from
+    // position, colour value and quaternion of every grain, from which the picture is drawn
     this.state = new Float32Array(8 * 512 * Math.ceil(Math.max(head.grains, 1) / 512));
     this.measureBox();
   }
@@ -127,17 +127,17 @@ class Data {
       mobilised: parts.contact_mobilised };
   }
 
-  // Where the state has a grain.
+  // The centre of a grain in the state.
   centreOf(grain) {
     return Array.from(this.state.subarray(8 * grain, 8 * grain + 3));
   }
-  // Where a contact is while grain a is where the state has it.
+  // The position of a contact, which moves with the centre of its grain a in the state.
   contactPlace(c) {
     const { a, places, count } = this.contact, g = a[c], reach = 1.02 * this.reach[g] / 127;
     return [0, 1, 2].map((k) => this.state[8 * g + k] + (places[k * count + c] - 128) * reach);
   }
 
-  // The stored contacts nearest in time; none where the run kept none.
+  // The stored contacts nearest in time; an empty range where the run stored none.
   contactsAt(time) {
     const away = ({ frame }) => Math.abs(this.times[frame] - time);
     let best = null;
@@ -152,19 +152,19 @@ class Data {
     return { frame, next, span: this.times[next] - this.times[frame], u };
   }
 
-  // With the whole periods that it has gone: it does not jump where the world begins anew.
+  // Coordinate k of a grain, with all periods that it has crossed: it never jumps by a period.
   positionOf(frame, g, k) {
     const n = frame * this.grains + g, { low, span, period } = this.head;
     return low[k] + this.positions[3 * n + k] / 65535 * span[k] +
       (period ? this.laps[n] * period[k] : 0);
   }
-  // Less whole periods: where a place is in the first one; with `ahead` 0.5 the least of ways.
+  // x less whole periods: inside the first period, or with `ahead` 0.5 the shortest equivalent way.
   wrapped(x, ahead = 0) {
     const { period } = this.head;
     return period ?
       sub(x, times(period, Math.floor(dot(x, period) / dot(period, period) + ahead))) : x;
   }
-  // From 8 bits with a root's steps.
+  // Coordinate k of a grain's velocity; 8 bits hold the signed square root of its share of fastest.
   velocityOf(frame, g, k) {
     const root = (this.velocities[3 * (frame * this.grains + g) + k] - 128) / 127;
     return root * Math.abs(root) * this.head.fastest;
@@ -175,10 +175,10 @@ class Data {
     return out;
   }
 
-  // Fills in the state at a time: positions by Hermite's cubic through places and velocities,
-  // rotations between the two, the shorter way round.
+  // Fills in the state at a time: positions by Hermite's cubic through positions and velocities,
+  // rotations by normalised linear interpolation, the shorter way round.
   moveTo(time, valueOf) {
-    this.now = time;  // of the state
+    this.now = time;  // the time of the state
     const { frame, next, span, u } = this.frameAt(time), state = this.state;
     const u2 = u * u, u3 = u2 * u;
     const h00 = 2 * u3 - 3 * u2 + 1, h10 = (u3 - 2 * u2 + u) * span;
@@ -204,18 +204,18 @@ class Data {
     }
   }
 
-  // A curve's value at a time; before its first row that row's.
+  // A curve's value at a time; before its first row the value of that row.
   seriesAt(name, time) {
     const [row, u] = placeIn(this.seriesTime, time), { values } = this.series[name];
     return values[row] + (u && (values[row + 1] - values[row]) * u);
   }
 
-  // A wall's point at a time. The driven one follows the curve of all steps, not the frames.
+  // A point of wall w at a time. The driven wall follows its curve of all steps, not the frames.
   wallAt(w, time) {
     const wall = this.head.walls[w], frames = this.times.length;
     const stored = (frame, k) => this.wallStates[6 * (w * frames + frame) + k];
     if (wall.driven && this.series.x) {
-      // x at the first frame: 0, unless the stored frames begin later
+      // x at the first frame; 0 if that frame comes before the first row of the curve
       const first = this.begin < this.seriesTime[0] ? 0 : this.seriesAt("x", this.begin);
       const outward = (this.seriesAt("x", time) - first) * 1e-3;
       return [0, 1, 2].map((k) => stored(0, k) - wall.normal[k] * outward);
@@ -226,7 +226,7 @@ class Data {
         (2 * u - 1) * (span ? (stored(next, k) - stored(frame, k)) / span : 0)));
   }
 
-  // The box that all is in: walls where there are some, else the bodies and some room.
+  // The box that holds everything. Walls bound it where there are any, else the bodies do.
   measureBox() {
     const { low, span } = this.head, most = this.reach.reduce((a, b) => Math.max(a, b), 0.001);
     this.low = low.map((v) => v - 1.02 * most);
@@ -236,12 +236,12 @@ class Data {
       for (let k = 0; k < 3; ++k) {
         if (Math.abs(wall.normal[k]) < 0.999) continue;
         const edge = (of) => this.times.map((t) => this.wallAt(w, t)[k]).reduce((a, b) => of(a, b));
-        // a lid far above what it closes is not part of the picture
+        // a wall far from the bodies, as a lid far above them, does not bound the picture
         if (wall.normal[k] > 0) this.low[k] = Math.max(edge(Math.min), free[k] - 2 * most);
         else this.high[k] = Math.min(edge(Math.max), free[3 + k] + 2 * most);
       }
     });
-    // by more than a thousandth of the picture, or the load drives it
+    // a wall moves if it goes more than a thousandth of the box's diagonal or the load drives it
     const least = 1e-3 * norm(sub(this.high, this.low));
     this.wallMoves = this.head.walls.map((wall, w) => wall.driven || this.times.some((t) =>
       norm(sub(this.wallAt(w, t), this.wallAt(w, this.begin))) > least));

@@ -1,7 +1,7 @@
-// The error in space: every contact of a captured problem coloured by how wrong an answer is there,
-// one picture for each of two backends, one camera, one budget of iterations.
+// The error in space: every contact of a captured problem is coloured by the error of an answer
+// there. Each of two backends has a picture; they share the camera and the budget of iterations.
 
-const errorDecades = [-6, 0];  // what the colours span, over g h
+const errorDecades = [-6, 0];  // the decades of the error over g h that the colours span
 
 class ErrorView {
   constructor(data) {
@@ -13,7 +13,7 @@ class ErrorView {
     this.worst = -1;
   }
 
-  // The logarithm of the error of contact c in a picture.
+  // The decadic logarithm of the error over g h of contact c in a picture.
   errorOf(picture, c) {
     const budgets = this.solves[0].iterations.length, contacts = this.data.contact.count;
     const at = (this.shown[picture] * budgets + this.budget) * contacts + c;
@@ -23,7 +23,7 @@ class ErrorView {
     return (this.errorOf(picture, c) - errorDecades[0]) / (errorDecades[1] - errorDecades[0]);
   }
 
-  // Balls at the contacts of a picture, the worst on a needle.
+  // Adds balls at the contacts of a picture, the worst contact on a needle.
   addBalls(rods, picture, marks, cut) {
     const size = marks.meanReach;
     for (let c = 0; c < this.data.contact.count; ++c) {
@@ -37,7 +37,7 @@ class ErrorView {
     }
   }
 
-  // The contact where the picture's answer is most wrong.
+  // The contact with the largest error of the picture's answer.
   findWorst(picture) {
     let worst = 0;
     for (let c = 1; c < this.data.contact.count; ++c)
@@ -45,7 +45,7 @@ class ErrorView {
     return worst;
   }
 
-  // What the page's address says: #left=pgs&right=auto&budget=100
+  // Takes over the choices in the page's address: #left=pgs&right=auto&budget=100
   read() {
     const { iterations } = this.solves[0], last = this.solves.length - 1;
     const asked = ["left", "right"].map((side) =>
@@ -61,14 +61,14 @@ class ErrorView {
     this.say();
   }
 
-  // The same as it is now.
+  // The current choices as the address holds them.
   words() {
     if (!this.isOn) return {};
     const [left, right] = this.shown.map((k) => this.solves[k].backend);
     return { left, right, budget: String(this.solves[0].iterations[this.budget]) };
   }
 
-  // The controls: who is shown where, the budget, the way to the worst contact.
+  // Builds the controls: the backend of each picture, the budget, a button to the worst contact.
   build(replay) {
     if (!this.isOn) return;
     const place = part("errors"), { iterations } = this.solves[0];
@@ -101,7 +101,7 @@ class ErrorView {
     this.say();
   }
 
-  // The budget and the rms errors in words.
+  // Writes the budget and the rms errors in words.
   say() {
     const { iterations } = this.solves[0];
     const number = (v) => v.toExponential(1).replace("-", "\u2212");

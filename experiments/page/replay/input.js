@@ -1,7 +1,7 @@
 // Mouse, fingers and keys.
 
-// Drag turns, with shift or two fingers it moves the picture; the wheel and a pinch zoom; a click
-// picks.
+// Dragging turns the view; with shift or two fingers it moves the picture. The wheel and a pinch
+// zoom; a click picks a grain.
 function listenToPointer(canvas, replay) {
   const { camera } = replay, fingers = new Map();
   let travel = 0;
@@ -52,7 +52,7 @@ function listenToPointer(canvas, replay) {
   });
 }
 
-// While the picture has the focus.
+// Listens to keys while the picture has the focus.
 function listenToKeys(canvas, replay) {
   const { camera } = replay;
   const turn = (dx, dy) => (event) =>

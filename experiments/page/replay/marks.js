@@ -1,4 +1,4 @@
-// What is drawn besides grains: walls and their edges, the load, force chains, contact points.
+// The marks besides the grains: walls and their edges, the load, force chains, contact points.
 
 // The part of a plane through `point` that lies in the box low .. high, as a loop of corners.
 function planeInBox(point, normal, low, high) {
@@ -8,7 +8,7 @@ function planeInBox(point, normal, low, high) {
     add(point, add(times(side, a * wide), times(other, b * wide))));
   for (let k = 0; k < 3; ++k)
     for (const [sign, bound] of [[1, high[k]], [-1, -low[k]]]) {
-      // Sutherland and Hodgman 1974; the box is a hair wider, so that its own walls stay in
+      // Sutherland and Hodgman 1974; the box is slightly wider, so that its own walls stay in
       const room = (p) => bound + 1e-6 * wide - sign * p[k], kept = [];
       loop.forEach((p, at) => {
         const q = loop[(at + 1) % loop.length], rp = room(p), rq = room(q);
@@ -46,8 +46,8 @@ class Marks {
     return chains;
   }
 
-  // Fills in the look's planes and returns its rods. `options`: what the reader has chosen.
-  // `errors`, of which `picture`.
+  // Fills in the look's planes and returns its rods. `options` are the reader's choices; `errors`
+  // adds the balls of `picture`.
   build(time, look, options, colours, errors, picture) {
     const rods = [];
     look.planes = [];
@@ -60,7 +60,7 @@ class Marks {
 
   addWalls(time, look, rods, colours) {
     const { data } = this, { low, high, centre, radius } = data, ground = [];
-    const thin = isDark(look.paper) ? 0.4 : 1;  // light on dark covers more
+    const thin = isDark(look.paper) ? 0.4 : 1;  // light colours cover more on dark ground
     look.cell = niceStep(2 * radius, 8);
     const reach = 2.7 * radius;
     for (let k = 0; k < 40; ++k) {
@@ -86,7 +86,7 @@ class Marks {
     });
   }
 
-  // The load as an arrow onto the driven wall.
+  // Adds the load as an arrow onto the driven wall.
   addLoad(time, wall, loop, rods, colours) {
     const { radius } = this.data, share = this.data.seriesAt("f", time) / this.topLoad;
     const middle = times(loop.reduce((sum, p) => add(sum, p), [0, 0, 0]), 1 / loop.length);
@@ -114,7 +114,7 @@ class Marks {
     }
   }
 
-  // Points coloured by the share of friction that is used.
+  // Adds the contact points, coloured by the share of friction that is used.
   addPoints(time, rods, { picked }, cut) {
     const { begin, end } = this.data.contactsAt(time), { a, b, mobilised } = this.data.contact;
     const size = this.meanReach;

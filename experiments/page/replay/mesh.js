@@ -1,6 +1,6 @@
 // The triangles of all grains as one buffer. A corner has 12 bytes: position (int16 x 3), the
-// grain's number modulo 2^16 (uint16), normal (int8 x 3), and in 8 bits which edges of its triangle
-// lie inside a face (3) and the grain's number / 2^16 (5).
+// grain's number modulo 2^16 (uint16), normal (int8 x 3), and 8 bits: 3 mark the edges of its
+// triangle that lie inside a face, 5 hold the grain's number / 2^16.
 
 class Mesh {
   constructor(data) {
@@ -9,7 +9,7 @@ class Mesh {
     this.corners = 3 * data.head.shape_of.reduce((sum, s) => sum + this.fans[s].length, 0);
   }
 
-  // Made when it is first asked for.
+  // The buffer, made on first use.
   get bytes() { return this.made ??= this.make(); }
   make() {
     const { data: { shapes, head }, fans } = this, bytes = new ArrayBuffer(12 * this.corners);

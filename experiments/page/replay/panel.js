@@ -1,6 +1,6 @@
 // The page's elements around the picture: buttons, choices, legend, facts about a picked grain.
 
-// The last argument of each is called when the reader chooses, with what is chosen.
+// The last argument of each is called when the reader uses the control, with the chosen value.
 const selection = (id, words, options, chosen, changed) => element("label", {}, words,
   element("select", { id: "replay-" + id, onchange: (event) => changed(event.target.value) },
     ...options.map(([value, text]) =>
@@ -14,14 +14,14 @@ const tick = (id, words, turned) => element("label", {},
   element("input", { id: "replay-" + id, type: "checkbox",
     onchange: (event) => turned(event.target.checked) }), words);
 
-// All elements, in the place of the still picture.
+// Builds all elements, which replace the still picture.
 function buildPanel(replay) {
   const { data, camera } = replay, moves = data.times.length > 1;
   const hasContacts = data.contactFrames.length > 0;
   const names = { speed: "speed", displacement: "displacement", rotation: "rotation",
     force: "force carried", size: "size class", none: "none" };
   const colours = Object.keys(replay.shades.choices).map((name) => [name, names[name]]);
-  // where marks are to be seen grains are glass
+  // where chains or points are shown, grains are drawn as glass
   const marked = (name, other) => (on) => replay.set({ [name]: on,
     grains: on || replay.options[other] ? "ghost" : "solid" });
   part("stage").replaceChildren(
@@ -73,15 +73,15 @@ function buildPanel(replay) {
   part("sentence").hidden = true;
 }
 
-// One ramp of the legend: words, its background, ticks [share, text]. A tick whose words would run
-// into those before is left out.
+// One ramp of the legend, with words, background and ticks [share, text]. A tick whose text would
+// run into the text before it is left out.
 function rampLegend(words, background, ticks) {
-  const wide = matchMedia("(max-width:40rem)").matches ? 160 : 216;  // the legend, in pixels
+  const wide = matchMedia("(max-width:40rem)").matches ? 160 : 216;  // the legend's width [pixels]
   const bar = element("div", { class: "bar" }), row = element("div", { class: "ticks" });
   bar.style.background = background;
   let end = -Infinity;
   for (const [at, text] of ticks) {
-    // about 7 pixels a letter; the first stands on the right of its place, others about theirs
+    // about 7 pixels a letter; the first text begins at its place, others are centred on theirs
     const half = 3.5 * text.length, middle = Math.max(at * wide, row.children.length ? 0 : half);
     if (middle - half < end + 6) continue;
     end = middle + half;
@@ -92,7 +92,7 @@ function rampLegend(words, background, ticks) {
   return [element("b", {}, words), bar, row];
 }
 
-// What colours mean: of grains, of force chains, of contact points.
+// Draws the legend: the meaning of the colours of grains, force chains and contact points.
 function drawLegend(shades, { colour, chains, points }, marks) {
   const legend = part("legend"), { words, unit, ramp } = shades.choices[colour];
   const parts = [];
@@ -100,7 +100,7 @@ function drawLegend(shades, { colour, chains, points }, marks) {
     `${cssColour(colourAt(ramps[ramp], (k + 0.5) / 5))} ${20 * k}% ${20 * k + 20}%`);
   const ticks = shades.ticks(colour), ground = colour !== "size" ? cssGradient(ramps[ramp]) :
     ticks.length > 1 ? "linear-gradient(90deg," + classes + ")" :
-      cssColour(colourAt(ramps[ramp], 0.5));  // all of one size
+      cssColour(colourAt(ramps[ramp], 0.5));  // all grains have one size
   if (words)
     parts.push(...rampLegend(words + (unit ? " / " + unit : ""), ground, ticks));
   if (chains)
@@ -113,7 +113,7 @@ function drawLegend(shades, { colour, chains, points }, marks) {
   legend.replaceChildren(...parts);
 }
 
-// What is known of a picked grain.
+// Shows the facts about a picked grain.
 function drawFacts(data, picked, time) {
   const facts = part("facts");
   facts.hidden = picked < 0;

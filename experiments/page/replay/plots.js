@@ -1,4 +1,4 @@
-// The curves of a run with one cursor: where the cursor stands is where the box is.
+// The curves of a run, with a cursor at the time of the picture.
 
 class Plots {
   constructor(place, data, goTo) {
@@ -20,7 +20,7 @@ class Plots {
     this.layOut();
   }
 
-  // The curves of a plot and what its axes span.
+  // The curves of a plot and the ranges of its axes.
   panel(plot, picture) {
     const series = plot.series.map((name) => this.data.series[name]);
     const over = this.data.series[plot.over], across = over ? over.values : this.data.seriesTime;
@@ -31,7 +31,7 @@ class Plots {
       return high > low ? [low, high] : [low - 0.5, low + 0.5];
     };
     const [left, right] = over ? range(across) : [this.data.begin, range(across)[1]];
-    // the top leaves out what single steps reach: spikes of a few steps are cut off
+    // the top of the range leaves out the spikes of a few steps, which are cut off
     const all = series.flatMap((s) => range(s.values));
     const tops = series.map((s) => 1.25 * quantile(s.values, 0.995));
     const lows = Math.min(...all);
@@ -90,7 +90,7 @@ class Plots {
     }
   }
 
-  // The time that a place in a plot means. On a loop: the nearest of it.
+  // The time of a place in a plot. In a plot over another series: the time of the nearest point.
   timeAt({ over, across, series, x, y, left, right }, px, py) {
     const end = x(right), begin = x(left);
     if (!over) return left + clamp((px - begin) / (end - begin), 0, 1) * (right - left);

@@ -1,4 +1,4 @@
-// The replay itself: one time, one camera, and what the reader has chosen.
+// The replay itself: one time, one camera, and the reader's choices.
 
 class Replay {
   constructor(data) {
@@ -46,11 +46,11 @@ class Replay {
       this.readStyle();
       this.set({});
     });
-    // what nobody sees is not drawn
+    // nothing is drawn while the replay is out of sight
     this.isSeen = true;
     new IntersectionObserver(([entry]) => { this.isSeen = entry.isIntersecting; }).observe(
       part("stage"));
-    // a graphics card may be taken away and come back: then all begins anew
+    // the context of the graphics card may be lost and restored: then the page is loaded again
     for (const { canvas } of this.stages) {
       canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
       canvas.addEventListener("webglcontextrestored", () => location.reload());
@@ -63,7 +63,7 @@ class Replay {
     suitMarks(this.colours.paper);
   }
 
-  // Changes what the reader has chosen, and shows it in the panel.
+  // Changes the reader's choices, and shows them in the panel.
   set(changes) {
     Object.assign(this.options, changes);
     const { options } = this;
@@ -87,11 +87,11 @@ class Replay {
     this.set({ picked: this.stages[0].pick(this.look(0), x, y) });
   }
 
-  // What is beyond is cut away: normal and offset; null: nothing is.
+  // The plane, as normal and offset, beyond which everything is cut away; null: no cut.
   cutPlane() {
     const axis = "xyz".indexOf(this.options.cut || "-");
     if (axis < 0) return null;
-    // the nearer half goes
+    // the half nearer to the eye is cut away
     const sign = this.camera.eye[axis] >= this.data.centre[axis] ? 1 : -1;
     const { low, high } = this.data, plane = [0, 0, 0, 0];
     plane[axis] = sign;
@@ -118,7 +118,7 @@ class Replay {
     this.last = this.drawnAt = 0;
     this.touched();
   }
-  // Something has changed. The address says so when nothing changes any more.
+  // Called after every change. The address is brought up to date 300 ms after the last one.
   touched() {
     this.isStale = true;
     this.movesUntil = performance.now() + 180;
@@ -130,9 +130,9 @@ class Replay {
     }, 300);
   }
 
-  // What the reader has chosen stands in the page's address behind #, so that a link or a reload
-  // shows the same: #t=0.3&colour=displacement&cut=y&cutAt=0.5&chains=1&view=x&play=0. What is as
-  // at first is left out. Here it is all that an address can say: name -> text.
+  // The reader's choices, all that an address can hold: name -> text. The page's address keeps them
+  // behind #, so that a link or a reload shows the same, without those that are as at first:
+  // #t=0.3&colour=displacement&cut=y&cutAt=0.5&chains=1&view=x&play=0.
   words() {
     const { options, camera, data, errors, time, playing, rate } = this;
     const rounded = (value) => String(+(+value).toPrecision(5));
@@ -144,7 +144,7 @@ class Replay {
     return words;
   }
 
-  // Makes the replay what the address says.
+  // Takes over the choices in the address.
   readAddress() {
     const { camera, data, defaults } = this;
     for (const [name, value] of Object.entries(defaults)) {
@@ -163,7 +163,7 @@ class Replay {
     this.setPlaying(!this.isCalm && choice.get("play") !== "0");
   }
 
-  // All that a stage draws at this moment.
+  // All that a stage draws at the current time.
   look(picture) {
     const look = { camera: this.camera, grains: this.options.grains, picked: this.options.picked,
       cut: this.cutPlane(), paper: this.colours.paper, balls: this.isDraft };
@@ -173,8 +173,8 @@ class Replay {
   }
 
   draw() {
-    // balls in place of grains: in the first picture of many corners, and while something moves
-    // where a whole picture takes long
+    // a draft has balls in place of grains: the first picture of more than 1e6 corners, and moving
+    // pictures where a whole one takes more than 300 ms
     this.isDraft = this.wholeTook ? this.moving && this.wholeTook > 300 :
       this.isDraft === undefined && this.mesh.corners > 1e6;
     const ramp = this.shades.apply(this.options.colour, this.time);
@@ -191,7 +191,7 @@ class Replay {
     this.wholeBegan = this.isDraft ? 0 : performance.now();
   }
 
-  // The words beside the load's arrow.
+  // Writes the load and the wall's displacement beside the load's arrow.
   placeLoad() {
     const label = part("load"), { load } = this.marks, { f, x } = this.data.series;
     label.hidden = !load;
@@ -200,21 +200,21 @@ class Replay {
       one.symbol + " = " + steady(this.data.seriesAt(name, this.time), one.values) + " " +
       one.unit);
     label.replaceChildren(line(f, "f"), line(x, "x"));
-    // beyond the arrow's end, which it does not cover, and within the picture
+    // beyond the arrow's tail, so that the label does not cover the arrow, and within the picture
     const matrix = this.camera.matrix(this.stages[0].aspect), { clientWidth, clientHeight } =
       this.stages[0].canvas;
     const [left, top] = projected(matrix, load.tail), [head] = projected(matrix, load.middle);
     const { offsetWidth: wide, offsetHeight: high } = label, isRight = left >= head;
     const x0 = left * clientWidth + (isRight ? 6 : -6 - wide), y0 = top * clientHeight;
     label.style.left = clamp(x0, 4, Math.max(4, clientWidth - wide - 4)) + "px";
-    // pushed back over the arrow it stands above it
+    // a label that is pushed back over the arrow stands above the arrow
     const isOver = x0 + wide > clientWidth - 4 || x0 < 4;
     const top0 = y0 - (isOver ? high + 14 : high / 2);
     label.style.top = clamp(top0, 4, clientHeight - high - 4) + "px";
   }
 
-  // Every frame of the browser. A picture is begun when the last one is finished: where there is no
-  // graphics card it takes longer than a frame.
+  // Called in every frame of the browser. A picture is begun when the last one is finished: without
+  // a graphics card it takes longer than a frame.
   loop(now) {
     const passed = this.last ? Math.min(now - this.last, 120) : 0;
     this.last = now;
@@ -228,14 +228,14 @@ class Replay {
     if (!this.stages.some((stage) => stage.isBusy())) this.drawNext(now);
     requestAnimationFrame((next) => this.loop(next));
   }
-  // When the last picture is finished.
+  // Called when the last picture is finished; draws the next one if it is needed.
   drawNext(now) {
     if (this.wholeBegan) [this.wholeTook, this.wholeBegan] = [now - this.wholeBegan, 0];
     if (!(this.playing || this.isStale) || !this.isSeen) return;
     this.keepPace(now);
     this.draw();
   }
-  // Fewer pixels where pictures come slowly.
+  // Draws fewer pixels where pictures come slowly.
   keepPace(now) {
     if (!this.playing) return;
     const since = this.drawnAt ? Math.min(now - this.drawnAt, 500) : 60;

@@ -1,7 +1,7 @@
 // The programs that run on the graphics card (GLSL ES 3). Colours are linear light, white = 1,
 // until they are `finished`.
 
-// Light that arrives: from one direction (`sun`), shadowed, and from all around.
+// The light: from one direction (`sun`), with shadows, and from all around.
 const lightText = `
 uniform highp sampler2DShadow shadow;
 uniform vec3 sun, sunColour, around, eye;
@@ -32,7 +32,7 @@ void pose(uint g, out vec4 p, out vec4 q) {
 }
 `;
 
-// A corner of a grain, or (BALL) the grain as a ball, which is one round point.
+// Draws a corner of a grain, or with BALL the whole grain as a ball, which is one round point.
 const grainVertex = poseText + `
 uniform mat4 camera;
 uniform highp sampler2D ramp;
@@ -191,8 +191,8 @@ void main() {
 }`;
 
 // A rod between two balls of any radii: chains, points, edges, arrows. Negative radii are pixels.
-// Drawn as a rectangle that faces the eye.
-const rodsInRow = 256;  // of the texture that holds them, three texels each
+// The rod is drawn as a rectangle that faces the eye.
+const rodsInRow = 256;  // rods in a row of their texture, three texels each
 const rodVertex = `
 uniform highp sampler2D rods;
 uniform mat4 camera;

@@ -1,11 +1,11 @@
-// What grains are coloured by: for each choice the ramp, the words of the legend, and the share of
-// the ramp that a grain gets.
+// The quantities that colour the grains: for each choice the ramp, the words of the legend, and the
+// share of the ramp that a grain gets.
 
-// About `count` of many, evenly.
+// About `count` of many elements, evenly spaced.
 const sampled = (all, count) =>
   all.filter((_, k) => k % Math.max(1, Math.floor(all.length / count)) === 0);
 
-// Of many values a part is asked.
+// A quantile of the finite values; of many values only a sample is taken.
 const quantile = (values, share) => {
   const sorted = Float32Array.from(sampled(values, 20000)).filter(Number.isFinite).sort();
   return sorted.length ? sorted[Math.floor(share * (sorted.length - 1))] : 0;
@@ -15,7 +15,7 @@ class Shades {
   constructor(data) {
     this.data = data;
     const { head } = data, last = data.times.length - 1;
-    // tops of the scales: nearly all grains at nearly all times are below. Of many a part is asked.
+    // tops of the scales: nearly all grains at nearly all times lie below. Many are only sampled.
     const speeds = [], moves = [], turns = [], every = Math.max(1, Math.floor(head.grains / 5000));
     for (let f = 0; f <= last; f += Math.max(1, Math.floor(last / 20)))
       for (let g = 0; g < head.grains; g += every) {
@@ -63,7 +63,7 @@ class Shades {
     return same > 0.999999 ? 0 : 2 * Math.acos(Math.min(1, same));
   }
 
-  // The sum of normal forces on each grain, halved: what is handed through it.
+  // Half the sum of the normal forces on each grain: the force that passes through it.
   forcesIn(frame) {
     const { a, b, force } = this.data.contact, sum = new Float32Array(this.data.grains);
     for (let c = frame.begin; c < frame.end; ++c) {
@@ -73,7 +73,7 @@ class Shades {
     return sum;
   }
 
-  // Moves the data to a time, coloured by `name`.
+  // Moves the data to a time, coloured by the choice `name`, and returns its ramp.
   apply(name, time) {
     const choice = this.choices[name], { data } = this;
     if (name === "force") {

@@ -3,7 +3,7 @@
 const slots = { states: 0, ramp: 1, shadow: 2, rods: 3 };  // texture units
 const shadowSize = 2048, numberSize = 512;
 
-// The sun with its shadow, and the sky from all sides.
+// The light: the sun, which casts shadows, and the sky from all sides.
 const light = { to: unit([0.42, -0.5, 0.76]), colour: [0.80, 0.77, 0.71],
   around: [0.404, 0.426, 0.456] };
 
@@ -16,11 +16,11 @@ class Stage {
       { antialias: true, alpha: false, powerPreference: "high-performance" });
     if (!gl) throw new Error("this browser gives no WebGL 2");
     this.programs = new Map();
-    this.end = null;  // of the last picture's commands
+    this.end = null;  // marks the end of the last picture's commands
     this.upload();
   }
 
-  // A program with its switches ("CUT", "GHOST"), made when it is first needed.
+  // Uses a program with its switches ("CUT", "GHOST", "BALL"), made on first use. Returns uniforms.
   use(name, ...switches) {
     const gl = this.gl, key = [name, ...switches].join(" ");
     if (!this.programs.has(key)) {
@@ -68,7 +68,7 @@ class Stage {
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, height, gl.RGBA, gl.FLOAT, numbers);
   }
 
-  // A buffer of corners with its layout: [place, numbers, type, offset, is it whole numbers].
+  // A buffer of corners with its layout: [location, numbers, type, offset, are they integers].
   vertices(bytes, stride, layout) {
     const gl = this.gl, array = gl.createVertexArray(), buffer = gl.createBuffer();
     gl.bindVertexArray(array);
@@ -89,7 +89,7 @@ class Stage {
     this.nothing = gl.createVertexArray();
     this.texture("states", gl.RGBA32F, 1024, this.data.state.length / 4096);
     this.texture("ramp", gl.RGBA32F, 256, 1);
-    // the shadow: how far the sun's first surface is
+    // the shadow map: the distance of the first surface seen from the sun
     const depth = this.texture("shadow", gl.DEPTH_COMPONENT24, shadowSize, shadowSize);
     for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
       gl.texParameteri(gl.TEXTURE_2D, name, gl.LINEAR);
@@ -104,7 +104,7 @@ class Stage {
     this.shadowMatrix = product(orthographic(reach, 0, 4 * reach),
       looking(add(centre, times(light.to, 2 * reach)), centre));
     this.rodRows = this.rods = 0;
-    // for picking: the numbers of grains, which no smoothing mixes
+    // for picking: the numbers of grains, without smoothing, which would mix them
     this.numberTarget = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.numberTarget);
     for (const [place, format] of [[gl.COLOR_ATTACHMENT0, gl.RGBA8],
@@ -125,7 +125,7 @@ class Stage {
   }
   get aspect() { return this.canvas.width / this.canvas.height; }
 
-  // `rods`: 12 numbers each: from and its radius, to and its radius, colour.
+  // `rods` has 12 numbers for each rod: start and its radius, end and its radius, colour.
   setRods(rods) {
     const gl = this.gl, rows = Math.ceil(rods.length / 12 / rodsInRow);
     this.rods = rods.length / 12;
@@ -140,7 +140,7 @@ class Stage {
     this.fill("rods", 3 * rodsInRow, rows, this.rodNumbers);
   }
 
-  // A program for what is lit, seen by a look's camera.
+  // Uses a program for lit surfaces, seen by a look's camera; returns its uniforms.
   lit(name, look, switches) {
     const gl = this.gl, at = this.use(name, ...look.cut ? ["CUT"] : [], ...switches);
     gl.uniform3fv(at.sun, light.to);
@@ -156,8 +156,8 @@ class Stage {
     return 0.5 * this.canvas.height / Math.tan(camera.angle(this.aspect) / 2);
   }
 
-  // All grains by a program: their corners, or each as one ball (look.balls), of which a metre has
-  // `lens` pixels at distance 1.
+  // Draws all grains by a program: their corners, or each grain as one ball (look.balls). A metre
+  // of a ball has `lens` pixels at distance 1.
   drawBodies(at, look, lens) {
     const { gl } = this;
     gl.uniform1f(at.scale, this.data.head.scale);
@@ -173,7 +173,7 @@ class Stage {
     gl.drawArrays(gl.TRIANGLES, 0, this.mesh.corners);
   }
 
-  // The grains' numbers as colours, and their depths.
+  // Draws the grains' numbers as colours, and their depths.
   drawNumbers(camera, look, lens) {
     const gl = this.gl, at = this.use("number", ...look.cut ? ["CUT"] : [],
       ...look.balls ? ["BALL"] : []);
@@ -187,7 +187,7 @@ class Stage {
     if (look.grains !== "hidden") this.drawBodies(at, look, lens);
   }
 
-  // Which grain is seen at a place of the picture of unit size, y downward; -1: none.
+  // The grain seen at a place of the picture, which has unit size, y downward; -1: none.
   pick(look, x, y) {
     const { gl } = this, pixel = new Uint8Array(4);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.numberTarget);
@@ -206,13 +206,13 @@ class Stage {
     if (look.balls) gl.uniformMatrix3fv(at.axes, false, look.camera.axes.flat());
     gl.depthMask(!ghost);
     if (ghost) gl.enable(gl.BLEND); else gl.disable(gl.BLEND);
-    if (!look.cut) gl.enable(gl.CULL_FACE);  // the back of a grain is its cut face
+    if (!look.cut) gl.enable(gl.CULL_FACE);  // with a cut the back of a grain is its cut face
     this.drawBodies(at, look, this.lens(look.camera));
     gl.disable(gl.CULL_FACE);
     gl.depthMask(true);
   }
 
-  // Ground or walls: polygons of look.planes.
+  // Draws the ground or the walls: polygons of look.planes.
   drawPlanes(look, isGround) {
     const gl = this.gl, at = this.lit("plane", look, []);
     gl.bindVertexArray(this.planes.array);
@@ -230,7 +230,7 @@ class Stage {
     gl.depthMask(true);
   }
 
-  // Two triangles each.
+  // Draws the rods, two triangles each.
   drawRods({ camera }) {
     if (!this.rods) return;
     const { gl, canvas: { width, height } } = this, at = this.use("rod");
@@ -239,18 +239,18 @@ class Stage {
     gl.uniform1f(at.lens, this.lens(camera));
     gl.bindVertexArray(this.nothing);
     gl.disable(gl.BLEND);
-    gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);  // edges are smooth, and hide what is behind
+    gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);  // smooth edges that hide everything behind
     gl.drawArrays(gl.TRIANGLES, 0, 6 * this.rods);
     gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
   }
 
-  // `ramp`: the colours of the bodies' values.
+  // Draws a picture. `ramp` has the colours of the bodies' values.
   draw(look, ramp) {
     const { gl, canvas, data: { state } } = this, solid = look.grains === "solid";
     this.fill("states", 1024, state.length / 4096, state);
     this.fill("ramp", 256, 1, ramp);
     this.setRods(look.rods);
-    // The shadow stays while nothing but the camera moves; glass throws none.
+    // The shadow map is kept while only the camera moves; glass casts no shadow.
     const cast = solid ? [this.data.now, look.balls, ...look.cut || []].join() : "none";
     if (cast !== this.cast) {
       gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadowTarget);

@@ -44,7 +44,7 @@ function orthographic(radius, near, far) {
     0, 0, (far + near) / (near - far), 1]);
 }
 
-// Where a point is on a screen of unit size, y downward, and how far it is.
+// The place of a point on a screen of unit size, y downward, and its depth.
 function projected(matrix, p) {
   const at = (row) =>
     matrix[row] * p[0] + matrix[4 + row] * p[1] + matrix[8 + row] * p[2] + matrix[12 + row];
@@ -52,7 +52,7 @@ function projected(matrix, p) {
   return [0.5 + 0.5 * at(0) / w, 0.5 - 0.5 * at(1) / w, w];
 }
 
-// Steps of 1, 2 or 5 times a power of ten.
+// The least step of 1, 2 or 5 times a power of ten that divides `span` into at most `most` parts.
 function niceStep(span, most) {
   const power = 10 ** Math.floor(Math.log10(span / most || 1));
   return [1, 2, 5, 10].map((s) => s * power).find((s) => span / s <= most) || 10 * power;
@@ -62,7 +62,7 @@ function niceStep(span, most) {
 const shown = (value, digits = 3) =>
   Number.isFinite(value) ? String(+value.toPrecision(digits)).replace("-", "\u2212") : "\u2013";
 
-// A value of a curve, with as many places at all times as give the curve's largest three digits.
+// A value of a curve, always with the decimal places that give the curve's largest three digits.
 const steady = (value, values) => {
   const most = values.reduce((top, v) => Math.max(top, Math.abs(v)), 0);
   const places = clamp(2 - Math.floor(Math.log10(most || 1)), 0, 6);

@@ -1,4 +1,4 @@
-// What is measured: its quartiles, its files, and two files side by side.
+// Measurements: their quartiles, their files, and two files side by side.
 
 #include "experiments/bench/measurement.hpp"
 

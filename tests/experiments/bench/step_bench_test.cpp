@@ -1,4 +1,4 @@
-// Whole steps by phase and state of the wall.
+// The bench of whole steps, by phase of the step and state of the wall.
 
 #include "experiments/bench/step_bench.hpp"
 
@@ -29,7 +29,7 @@ TEST_CASE("Steps are split into phases and states of the wall") {
   CHECK(parts == Approx(whole).epsilon(1e-9));
   CHECK(states == 60.0);
   CHECK(value_of(all, "1 thread, all/contacts") > 0.0);
-  // two threads: the same motion
+  // With two threads the motion is the same.
   const std::vector<BenchStep> two =
       measure_steps(tiny_box().scene, driven_start(tiny_box()), 60, 2);
   for (const StepColumn& column : step_columns())

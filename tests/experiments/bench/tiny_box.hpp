@@ -23,7 +23,7 @@ struct Silence {
   std::streambuf* old;
 };
 
-/// Deposited once for all tests of this program.
+/// The box that all tests of this program share.
 inline const DepositedBox& tiny_box() {
   static const DepositedBox box = [] {
     const TemporaryFolder folder;

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Deposits without a stop; what it says goes into `stages`.
+/// Deposits without a stop and lists the stages that it reports in `stages`.
 Packing deposited(const Scene& scene, const fs::path& part, std::vector<BoxStage>& stages) {
   Packing packing;
   const auto listen = [&](BoxStage stage, double, const StepRecord&) {
@@ -42,7 +42,7 @@ TEST_CASE("a deposit rains, presses and settles; its grains then lie in the box 
     for (const Vec3& vertex : system.bodies[b].shape.polyhedron->vertices())
       CHECK((state.pose[b] * vertex).minCoeff() > -1e-3);
 
-  // without pressure the lid is put over the highest grain
+  // Without pressure the lid is placed over the highest grain.
   const Scene unpressed = small_box({"deposit.lid_pressure_weight=0"});
   stages.clear();
   const DepositState free = deposited(unpressed, folder.path() / "free", stages).deposit;
@@ -56,7 +56,7 @@ TEST_CASE("a deposit stopped in every stage goes on to the same bits") {
   std::vector<BoxStage> stages;
   const Packing whole = deposited(scene, folder.path() / "whole", stages);
   const fs::path part = folder.path() / "part";
-  const int steps_each = GENERATE(37, 1);  // 1: also in the last step of every stage
+  const int steps_each = GENERATE(37, 1);  // 1: also stops in the last step of every stage
   Packing packing;
   std::vector<std::string> phases;
   for (int calls = 0, stops = 0;; calls = 0) {
@@ -105,7 +105,7 @@ TEST_CASE("a packing is given only to whom it belongs") {
     return run_error([&] { read_packing(file, key, read); });
   };
   CHECK_THAT(refusal("other"), Contains("a packing of other settings"));
-  // the part of an unfinished deposit is no packing
+  // The state of an unfinished deposit is not a packing.
   written.phase = "settle";
   write_checkpoint(file, written);
   CHECK_THAT(refusal("key"), Contains("a packing of other settings"));
@@ -138,7 +138,7 @@ TEST_CASE("a noise at the start moves every grain a little, by its seed, and the
 
 namespace {
 
-/// What goes to a stream while this lives.
+/// Catches what is written to a stream during its lifetime.
 class Heard {
  public:
   explicit Heard(std::ostream& stream) : stream_(stream), old_(stream.rdbuf(text_.rdbuf())) {}

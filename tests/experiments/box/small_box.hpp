@@ -1,5 +1,5 @@
 #pragma once
-// A vibrated box of a few grains: deposited in a fraction of a second.
+// A vibrated box of a few grains, which is deposited in a fraction of a second.
 
 #include "problems/scene/scene_file.hpp"
 

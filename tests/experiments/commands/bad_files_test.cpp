@@ -1,5 +1,5 @@
-// Meshes and stored problems that are broken: the program says which file, where in it, and exits
-// with 1.
+// Broken meshes and stored problems: the program names the file and the place in it, and exits with
+// 1.
 
 #include <filesystem>
 #include <fstream>
@@ -19,7 +19,7 @@ namespace {
 const std::string tetrahedron_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 const std::string tetrahedron_faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-/// Two contacts with W = 1, q = -1, mu as given; Siconos' dense text.
+/// Two contacts with W = 1, q = -1 and mu as given, in Siconos' dense text format.
 std::string dense_problem(const std::string& w_entry, const std::string& q_entry,
                           const std::string& mu) {
   return "3\n1\n0 3 3\n3 3\n" + w_entry + " 0 0 0 1 0 0 0 1\n" + q_entry + " 0 0\n" + mu + "\n";
@@ -69,7 +69,7 @@ TEST_CASE("a sound mesh is described, a broken one is exit code 1") {
     named.push_back(wrong.name);
     check_failure(ballast_program({"check", folder.write(wrong.name, wrong.text).string()}),
                   ExitCode::failure, named);
-    // the same mesh in a scene: the scene's line and the mesh's
+    // The same mesh in a scene: the error names the scene's line and the mesh's.
     const auto scene = folder.write(
         "scene.toml", "[[body]]\nshape = \"mesh\"\nmass = 1\nfile = \"" + wrong.name + "\"\n");
     named.insert(named.end(), {"scene.toml:4", "body.0.file = \"" + wrong.name + "\""});
@@ -146,7 +146,7 @@ TEST_CASE("an unreadable problem is a row with its reason, the others go on, the
 }
 
 TEST_CASE("a problem that the solver cannot take is a row with its reason") {
-  if (!find_solver("nlopt_slsqp").make) return;  // built without NLopt: the one with a limit
+  if (!find_solver("nlopt_slsqp").make) return;  // built without NLopt, the backend with a limit
   const TemporaryFolder folder;
   KnownSolutionSettings large;
   large.bodies = 100;
@@ -162,7 +162,7 @@ TEST_CASE("a problem that the solver cannot take is a row with its reason") {
 
 TEST_CASE("a problem without a solution is said to have none, whatever the backend") {
   const TemporaryFolder folder;
-  // q_N = -1 m/s between two bodies that nothing moves
+  // q_N = -1 m/s between two bodies that never move.
   const auto immovable =
       folder.write("immovable.dat", "3\n1\n0 3 3\n3 3\n0 0 0 0 0 0 0 0 0\n-1 0 0\n0.5\n");
   for (const SolverEntry& entry : solver_list()) {

@@ -1,5 +1,5 @@
-// What a user can get wrong, through the program itself: one line that names it, and the exit code
-// that says of which kind it is.
+// Mistakes of a user, through the program itself: it names the mistake in one line, and its exit
+// code tells the kind of mistake.
 
 #include <sstream>
 
@@ -131,7 +131,7 @@ TEST_CASE("a bad scene is exit code 1 and names file, line, key and value") {
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"check", file}, {"run", file, "--output", output}})
       check_failure(ballast_program(arguments), ExitCode::failure, wrong.named);
-    CHECK_FALSE(std::filesystem::exists(output));  // nothing is begun with a bad scene
+    CHECK_FALSE(std::filesystem::exists(output));  // a bad scene begins nothing
   }
 }
 
@@ -209,10 +209,10 @@ TEST_CASE("a folder that can't take the run is exit code 1") {
   fails(run(output, {"--continue", "--set", "body.0.mass=2"}), {output, "other settings"});
   CHECK(run(output, {"--overwrite"}).status == 0);
 
-  // its checkpoint cut short
+  // Cuts off half of the checkpoint.
   const std::string checkpoint = output + "/checkpoint.bin";
   std::filesystem::resize_file(checkpoint, std::filesystem::file_size(checkpoint) / 2);
-  std::filesystem::remove(output + "/steps.csv");  // it is unfinished
+  std::filesystem::remove(output + "/steps.csv");  // without it the run is unfinished
   fails(run(output, {"--continue"}), {checkpoint, "truncated"});
   fails(ballast_program({"check", checkpoint}), {checkpoint, "truncated"});
   fails(ballast_program({"export", output, "--output", output + "/a.obj"}),
@@ -224,7 +224,7 @@ TEST_CASE("a disk that is full is exit code 1") {
   const std::string scene = folder.write("tiny.toml", tiny_scene).string();
   check_failure(ballast_in_shell("\"$@\" > /dev/full", {"scenes"}), ExitCode::failure,
                 {"standard output"});
-  // no file may become larger than one block of 512 bytes: what a full disk does to a write
+  // Limits files to one block of 512 bytes, which fails a write as a full disk does.
   const std::string output = (folder.path() / "run").string();
   const ProgramResult full = ballast_in_shell("trap '' XFSZ; ulimit -f 1; exec \"$@\"",
                                               {"run", scene, "--output", output, "--no-report"});

@@ -1,4 +1,4 @@
-// `ballast bench` as it is called: two results side by side, and a short measurement.
+// The command `ballast bench`: two results side by side, and a short measurement.
 
 #include <cmath>
 #include <filesystem>
@@ -51,8 +51,8 @@ TEST_CASE("steps are measured, and how is kept with them") {
 
 namespace {
 
-/// Two turns of a step beside another program, a comparison, and a run. Sanitizers take more
-/// address space than the comparison's limit.
+/// A page that times a step and another program twice each, a comparison, and a run. Sanitizers
+/// take more address space than the comparison's limit, so that it has none.
 const char* const small_page = R"(<!--
 step x2: bench step BOX --steps 3 --packing-cache packings
 other x2: beside
@@ -94,12 +94,12 @@ TEST_CASE("a page of results is measured by its own commands, once, and made aga
   const std::string shares = "|100|\n|3|\n|0|\n";
   CHECK_THAT(told, Catch::Contains(shares) &&
                        Catch::Contains("`ballast compare known:contacts=12,bodies=6,count=3 "));
-  // two backends: what one is over the other is one over what the other is
+  // With two backends the two ratios are reciprocal.
   std::istringstream cells(told.substr(told.find(shares) + shares.size()));
   double pgs = 0.0, nncg = 0.0;
   cells >> pgs >> nncg;
   CHECK(pgs * nncg == Approx(1.0).epsilon(0.03));
-  double over = 0.0;  // a step over a billionth of a millisecond
+  double over = 0.0;  // the step's time over 1e-9 ms
   std::istringstream(told.substr(1)) >> over;
   CHECK(over > 1e6);
 
@@ -111,7 +111,7 @@ TEST_CASE("a page of results is measured by its own commands, once, and made aga
   CHECK(all({"--output", copy, "--rows", output + "/measured/numbers.csv"}).status == 0);
   CHECK(read_whole_file(folder.path() / "copy" / "results.md") == told);
 
-  // of rows whose times are known: 10 us are added to both, or nothing
+  // Rows with known times: the ratios are printed with 10 us added to both times, and without.
   for (const auto& file : std::filesystem::directory_iterator(output + "/known/1/rows")) {
     CompareRow row = compare_row_of_json(read_whole_file(file.path()), file.path().string());
     row.prepare_seconds = 0.0;

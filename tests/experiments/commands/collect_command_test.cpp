@@ -1,5 +1,5 @@
-// `ballast compare collect` and `ballast compare ranking` as they are called, from a list to a
-// page; and that others read what they leave.
+// The commands `ballast compare collect` and `ballast compare ranking`, from a list to a page.
+// Other programs read their files.
 
 #include <filesystem>
 
@@ -24,7 +24,7 @@ const char* const two_worlds =
     "[[family]]\nname = \"pile\"\nmade = [\"pile:contacts=8,count=4\"]\n"
     "[[family]]\nname = \"pile\"\nmade = [\"pile:contacts=9\"]\npart = \"large\"\n";
 
-/// Compiles a program of C; false: what it includes is not there.
+/// Compiles a C program. Returns false if a header that it includes is missing.
 bool compiled(const std::string& source, const fs::path& program) {
   const std::string words =
       "F=\"$(pkg-config --cflags hdf5) -I/usr/include/siconos -I/usr/include/siconos/numerics\"; "
@@ -59,7 +59,7 @@ TEST_CASE("a list becomes a collection, a comparison and a ranking") {
                            "--exact-seconds", "0", "--memory", "0", "--quiet", "--no-report",
                            "--output", compared})
               .status == 0);
-  // Distances are measured from the references of the collection.
+  // Distances are measured from the references in the collection.
   CsvReader rows(compared + "/results.csv");
   REQUIRE(rows.next());
   const std::vector<std::string> head(rows.cells().begin(), rows.cells().end());
@@ -108,7 +108,7 @@ TEST_CASE("a collection that is interrupted says so, and the same command goes o
   const std::string output = (folder.path() / "out").string(),
                     file = folder.write("list.toml", two_worlds).string();
   const std::vector<std::string> words = {"compare", "collect", "--list", file, "--output", output};
-  // As soon as the first problem is kept, the references take the rest of the time.
+  // Once the first problem is stored, the references take the rest of the time.
   const ProgramResult stopped = ballast_in_shell(
       "\"$@\" --exact-seconds 600 & pid=$!; "
       "until ls \"" +
@@ -116,7 +116,7 @@ TEST_CASE("a collection that is interrupted says so, and the same command goes o
           "\"/problems/*/*.hdf5 > /dev/null 2>&1; do sleep 0.01; done; "
           "kill -TERM $pid; wait $pid",
       words);
-  if (stopped.status != 0)  // or it was made already
+  if (stopped.status != 0)  // status 0: it had ended before the signal
     check_failure(stopped, ExitCode::failure, {"compare collect: stopped; the same command goes"});
   const ProgramResult again = ballast_program(words);
   INFO(again.errors);
@@ -145,7 +145,7 @@ TEST_CASE("Debian's FCLIB reads a collection, and Siconos' own measure agrees") 
         run_program(reader.string(), {entry.path().string(), reference.string()}, 60.0);
     INFO(entry.path() << ": " << said.output << said.errors);
     CHECK(said.status == 0);
-    // Siconos' measure of an answer that is none, and the judge's.
+    // Compares Siconos' measure of impulses that are no solution with the judge's.
     const FrictionProblem problem = read_problem(entry.path());
     const Impulses r = 0.9 * read_solution(reference, problem);
     const std::optional<double> theirs = parsed<double>(split(said.output, '\n').at(1));

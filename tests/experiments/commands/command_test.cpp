@@ -1,5 +1,4 @@
-// The program around its commands: what it does with a command line, and with every kind of
-// failure.
+// The program around its commands: how it handles a command line and every kind of failure.
 
 #include <iterator>
 #include <new>
@@ -67,7 +66,7 @@ TEST_CASE("a command line that asks for nothing, or for what there isn't, is exi
 
 namespace {
 
-/// What `path --help` prints, for "compare merge" and what else is given.
+/// The output of `path --help`; `path` is for instance "compare merge".
 std::string help_of(const std::string& path) {
   std::istringstream words(path + " --help");
   const std::vector<std::string> list{std::istream_iterator<std::string>(words), {}};
@@ -78,7 +77,7 @@ std::string help_of(const std::string& path) {
   return help.out;
 }
 
-/// The paths of a command and all below it.
+/// Appends the path of a command and the paths of all commands below it.
 void add_paths(const std::string& path, const Command& command, std::vector<std::string>& paths) {
   paths.push_back(path);
   for (const Command& part : command.parts) add_paths(path + ' ' + part.name, part, paths);
@@ -96,7 +95,7 @@ TEST_CASE("a command's help ends in its own text, and in no other's") {
   }
   std::vector<std::string> texts{help_text("ballast")};
   for (const std::string& path : paths) texts.push_back(help_text(path));
-  for (const std::string& text : texts) {  // examples name solvers that there are
+  for (const std::string& text : texts) {  // the solvers in the examples exist
     std::istringstream words(text);
     for (std::string word, before; words >> word; before = word)
       if ((before == "--solver" || before == "--solvers") && word != "all")

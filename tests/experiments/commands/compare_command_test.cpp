@@ -1,4 +1,4 @@
-// `ballast compare` as it is called: what it prints, what it leaves, and that it goes on.
+// The command `ballast compare`: its output, its files, and that it resumes.
 
 #include <algorithm>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A small comparison; `more` after it. (Sanitizers reserve terabytes: no limit of memory.)
+/// A small comparison, with `more` appended. Sanitizers reserve terabytes: it has no memory limit.
 std::vector<std::string> comparison(const fs::path& output, const std::string& solvers,
                                     const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"compare",      "known:contacts=6,bodies=4",
@@ -43,7 +43,7 @@ TEST_CASE("a comparison leaves its table and its page, and the same command goes
   const std::string csv = read_whole_file(output / "results.csv");
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
   CHECK(std::filesystem::exists(output / "compare.html"));
-  // how it was called is in the manifest, as a shell reads it
+  // The manifest has the command line in the form that a shell reads.
   CHECK_THAT(read_whole_file(output / "manifest.json"),
              Catch::Contains("ballast compare known:contacts=6,bodies=4"));
   std::filesystem::remove(output / "compare.html");
@@ -65,7 +65,7 @@ TEST_CASE("jobs of a comparison are merged, and a quiet one says nothing") {
   }
   const fs::path all = folder.path() / "all";
   merge.insert(merge.end(), {"--output", all.string()});
-  for (const char* command : {"merge", "ranking", "merge"}) {  // again into what is made of them
+  for (const char* command : {"merge", "ranking", "merge"}) {  // all into the same folder
     merge[1] = command;
     const ProgramResult merged = ballast_program(merge);
     CHECK(merged.status == 0);
@@ -74,7 +74,7 @@ TEST_CASE("jobs of a comparison are merged, and a quiet one says nothing") {
   CHECK(fs::exists(all / "compare.html"));
   merge.back() = merge[2];
   check_failure(ballast_program(merge), ExitCode::failure, {merge[2], "holds files"});
-  merge[3] = "nowhere";  // said before the folder that is not to be written into
+  merge[3] = "nowhere";  // this error comes before that of the output folder
   check_failure(ballast_program(merge), ExitCode::failure, {"nowhere: no folder of a comparison"});
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("what became of a comparison is told, with an exit code") {
   const ProgramResult same = ballast_program({"compare", "diff", before, before, "--all"});
   CHECK(same.status == 0);
   CHECK_THAT(same.output, Catch::Contains("-a0.8-s123 ") && Catch::Contains(": 2 same"));
-  // One row is lost by hand.
+  // Makes one solve of the copy a lost one.
   const fs::path after = folder.path() / "after";
   fs::copy(before, after, fs::copy_options::recursive);
   for (const auto& entry : fs::directory_iterator(after / "rows")) {
@@ -150,7 +150,7 @@ TEST_CASE("a damaged row is made again, and a folder of somebody's is left alone
   check_failure(ballast_program(comparison(theirs, "pgs")), ExitCode::failure,
                 {theirs.string(), "holds files"});
   CHECK(read_whole_file(theirs / "results.csv") == "the user's own");
-  // the run of a scene that is called compare
+  // A run of a scene with the name "compare".
   const RunFolder run(folder.path() / "run");
   run.begin("scene", Manifest("compare", {}, "key"), false);
   check_failure(ballast_program(comparison(run.path(), "pgs")), ExitCode::failure,

@@ -1,4 +1,4 @@
-// `ballast convert` as it is called.
+// The command `ballast convert`.
 
 #include "platform/hdf5_file.hpp"
 #include "problems/algebra/contact_error.hpp"
@@ -24,7 +24,7 @@ TEST_CASE("a collection goes from format to format and stays the same problem") 
     CHECK(converted[1].name.parent_path() == "deep");
     const FrictionProblem problem = read_problem(converted[0].file);
     CHECK(problem.has_dynamics == (to == "global" || to == "both"));
-    // The known solution, with three rows at every contact.
+    // The known solution is valid, with three rows at every contact.
     CHECK(contact_error(problem, three_rows(c.known.problem, c.known.r)).natural_map_max < 1e-12);
   }
 }
@@ -47,7 +47,7 @@ TEST_CASE("one problem becomes one file") {
                 ExitCode::usage, {"c.dat: only .hdf5 and .h5 are written"});
   check_failure(ballast_program({"convert", c.in.string(), "--output", file}), ExitCode::usage,
                 {"c.hdf5: one file for 2 problems, expected a folder"});
-  // a folder may have such a name
+  // The name of a folder may end in a suffix.
   fs::create_directories(c.out / "folder.dat");
   CHECK(ballast_program({"convert", c.in.string(), "--output", (c.out / "folder.dat").string()})
             .status == 0);
@@ -85,7 +85,7 @@ TEST_CASE("what cannot be converted is said, and the others are") {
                 ExitCode::failure, {"a.hdf5: only W is known"});
   check_failure(ballast_program({"convert", c.in.string(), "--output", c.in.string()}),
                 ExitCode::failure, {"written over what is read"});
-  // Two problems of one name would be one file.
+  // Two problems of the same name would be one file.
   check_failure(ballast_program({"convert", (c.in / "a.hdf5").string(), (c.out / "a.hdf5").string(),
                                  "--output", (c.out / "both").string()}),
                 ExitCode::failure, {"1 of 2 problems", "a.hdf5: holds"});

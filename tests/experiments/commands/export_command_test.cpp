@@ -1,4 +1,4 @@
-// Exports of runs: from the record, whatever has become of the scene's files.
+// Exports of runs are made from the record, whatever happened to the scene's files.
 
 #include "experiments/record/checkpoint.hpp"
 #include "geometry/shape/polyhedron.hpp"
@@ -42,7 +42,7 @@ TEST_CASE("an export has the shapes of the run, also when the mesh is another on
   CHECK(exported(run, after).status == 0);
   CHECK(read_whole_file(after) == read_whole_file(before));
 
-  // without its record it would be made of the new mesh: refused
+  // Without the record the export would use the new mesh, and is refused.
   write_mesh(mesh, make_box(Vec3(1, 2, 1)));
   fs::remove(run / "record.h5");
   check_failure(exported(run, after), ExitCode::failure, {"another system of bodies"});
@@ -98,7 +98,7 @@ TEST_CASE("a picture of a frame, and a page that shows a thing") {
   CHECK_THAT(read_whole_file(picture), Catch::Contains("acTL"));
   check_failure(exported(run, picture, {"--frames", "2:99"}), ExitCode::failure, {"--frames 2:99"});
   check_failure(exported(run, picture, {"--frames", "2:1"}), ExitCode::usage, {"FIRST:LAST"});
-  // each option is obeyed or refused
+  // Each option is obeyed or refused.
   const fs::path mesh = folder.path() / "box.obj";
   CHECK_THAT(exported(run, mesh, {"--frames", "1"}).output, Catch::Contains("at 0.01 s, step 10"));
   check_failure(exported(run, mesh, {"--frames", "1:2"}), ExitCode::usage,

@@ -1,5 +1,5 @@
-// Programs as backends of `ballast compare` and `ballast solve`: each thing that a program can do
-// wrong is its row, the others go on, and nothing of it is left running.
+// Programs as backends of `ballast compare` and `ballast solve`: each misbehaviour of a program
+// becomes its row, the other programs go on, and no process is left running.
 
 #include <fstream>
 #include <map>
@@ -21,7 +21,7 @@ namespace {
 
 const std::string own = std::string("'") + BALLAST_PROGRAM + "' answer --solver pgs";
 
-/// Processes whose command line holds the word.
+/// The number of processes whose command line holds the word.
 int processes_with(const std::string& word) {
   int count = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
@@ -52,7 +52,7 @@ std::map<std::string, Row> rows_of(const fs::path& folder) {
   return rows;
 }
 
-/// Says that it solved the request of this number, with an impulse that is no number.
+/// An answer that claims to have solved the request `id`, with a NaN impulse.
 fs::path answer_of_nan(const fs::path& file, int contacts, int id) {
   ExternalRequest request;
   for (int c = 0; c < contacts; ++c) request.problem.row_begin.push_back(3 * (c + 1));
@@ -65,7 +65,7 @@ fs::path answer_of_nan(const fs::path& file, int contacts, int id) {
   return file;
 }
 
-/// A busy machine may take half a second to start a program.
+/// `startup_seconds` is an argument, as a busy machine may take half a second to start a program.
 std::vector<std::string> compare_words(const fs::path& output, const std::string& max_seconds,
                                        const std::string& startup_seconds) {
   return {"compare",       "known:contacts=10,bodies=6,frictionless=0",
@@ -82,7 +82,7 @@ std::vector<std::string> compare_words(const fs::path& output, const std::string
 
 TEST_CASE("whatever a program does is its row, and nothing is left running") {
   const TemporaryFolder folder;
-  const std::string sleep = "sleep 86398.25";  // known by its duration
+  const std::string sleep = "sleep 86398.25";  // the processes are recognised by this duration
   const std::string half = "; head -c 600 \"$2\" > \"$2.x\"; mv \"$2.x\" \"$2\"; : ";
   const auto script = [&](const std::string& name, const std::string& text) {
     return name + "=sh '" + folder.write(name, text).string() + "'";
@@ -90,7 +90,7 @@ TEST_CASE("whatever a program does is its row, and nothing is left running") {
   const std::string answered = own + " \"$1\" \"$2\"";
   const std::string nan = answer_of_nan(folder.path() / "nan.hdf5", 10, 2).string();
   const std::string kept = (folder.path() / "kept").string();
-  // Who never answers is not waited for; who does has time, as a busy machine stalls for seconds.
+  // Programs that never answer get little time, others much: a busy machine stalls for seconds.
   const std::pair<const char*, std::vector<std::string>> groups[] = {
       {"0.5",
        {script("hangs", sleep), script("dies", "echo no licence >&2; exit 3"),
@@ -102,12 +102,12 @@ TEST_CASE("whatever a program does is its row, and nothing is left running") {
         script("forks", sleep + " & (setsid " + sleep + " &); " + answered),
         script("other",
                answered + "; test -e " + kept + " && cp " + kept + " \"$2\"; cp \"$2\" " + kept)}}};
-  std::map<std::string, Row> rows;  // of the second case: the last row by a name
+  std::map<std::string, Row> rows;  // of the second case: later rows replace earlier ones
   std::string said;
   for (const auto& [startup_seconds, programs] : groups) {
     const std::filesystem::path output = folder.path() / startup_seconds;
     std::vector<std::string> words = compare_words(output, "0.2", startup_seconds);
-    // The case a second time, so that there is another problem's answer to give.
+    // A second case, so that "other" can answer with the answer to another problem.
     words.insert(words.begin() + 1, "known:contacts=11,bodies=6,frictionless=0");
     for (const std::string& program : programs) words.insert(words.end(), {"--external", program});
     const ProgramResult result = ballast_program(words);

@@ -1,4 +1,4 @@
-// What there is: solvers, scenes, keys.
+// The commands that list solvers, scenes and keys.
 
 #include "problems/scene/scene_file.hpp"
 #include "solvers/solver_list.hpp"
@@ -25,7 +25,7 @@ TEST_CASE("scenes are listed, printed, resolved") {
   for (const auto& [name, title] : list_scenes())
     CHECK_THAT(list.output, Catch::Contains(name) && Catch::Contains(title));
   CHECK_THAT(ballast_program({"scenes", "incline"}).output, Catch::Contains("[[body]]"));
-  // all but the name, which is to be the file's that it is printed into
+  // The printed text has no name: a scene has the name of the file that it is printed into.
   std::string resolved = resolve_scene(find_scene("incline")).text;
   const std::string name = "name = \"incline\"\n";
   resolved.erase(resolved.find(name, resolved.find("[scene]")), name.size());

@@ -1,4 +1,4 @@
-// What a run says at its end, through the program itself.
+// The last output of a run, through the program itself.
 
 #include "experiments/commands/command.hpp"
 #include "platform/atomic_file.hpp"
@@ -10,7 +10,7 @@ using namespace ballast;
 
 namespace {
 
-/// Boxes of 10 g to 10 kg, the heavier on the lighter: what sweeps need thousands of turns for.
+/// Boxes of 10 g to 10 kg, the heavier on the lighter: sweeps need thousands of iterations.
 std::string heavy_on_light() {
   std::string text =
       "[scene]\nname = \"heavy\"\nstep = 1e-3\nduration = 0.2\n"

@@ -9,8 +9,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A tree in which run.sh finds all that it needs but has nothing to build, and a vibrated_box of
-/// few grains.
+/// Makes a tree with all that run.sh needs and nothing to build. Its vibrated_box has few grains.
 void make_tree(const fs::path& root) {
   for (const char* folder : {"scripts", "build/default/bin", "scenes"})
     create_folder(root / folder);
@@ -21,12 +20,12 @@ void make_tree(const fs::path& root) {
                 root / "scenes" / "vibrated_box.toml");
 }
 
-/// run.sh there with these arguments; stopped by SIGINT when `file` is there.
+/// Runs run.sh there with these arguments. A signal stops it as soon as `file` exists.
 ProgramResult run_sh(const fs::path& root, const std::vector<std::string>& arguments,
                      const std::string& file = "") {
   std::string words =
       "cd '" + root.string() + "'; export BALLAST_SCENES='" + (root / "scenes").string() + "'; ";
-  // A shell's child in the background ignores SIGINT: SIGTERM asks for the same.
+  // The child of a shell in the background ignores SIGINT. SIGTERM has the same effect.
   words += file.empty() ? "exec \"$@\""
                         : "\"$@\" & until ls " + file +
                               " >/dev/null 2>&1; do sleep 0.01; done; kill -TERM $!; wait $!";
@@ -44,7 +43,7 @@ TEST_CASE("run.sh goes on after an interrupt, in the deposit too") {
   const std::vector<std::string> arguments{
       "vibrated_box",   "--set", "grains.count=12",    "--set", "box.length=0.12", "--set",
       "box.width=0.12", "--set", "scene.duration=0.05"};
-  // in the deposit: before there is any checkpoint of the run
+  // Stops it in the deposit, before the run has any checkpoint.
   const ProgramResult stopped = run_sh(root, arguments, "results/packings/*.lock");
   INFO(stopped.output << stopped.errors);
   CHECK(stopped.status == 1);

@@ -1,4 +1,4 @@
-// The answers that `ballast solve` keeps and starts from.
+// The answers that `ballast solve` stores and starts from.
 
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
@@ -38,11 +38,11 @@ TEST_CASE("solve keeps its answer and starts from it") {
   REQUIRE(first.status == 0);
   const FrictionProblem read = read_problem(problem);
   CHECK(contact_error(read, read_solution(answer, read)).natural_map_rms < 1e-7);
-  // Solved before it begins.
+  // The start is a solution: no iteration is needed.
   const ProgramResult again =
       ballast_program({"solve", problem, "--start", answer.string(), "--json"});
   CHECK_THAT(again.output, Catch::Contains("\"iterations\": 0"));
-  // Several problems have their answers in a folder.
+  // The answers of several problems are put into a folder.
   const std::vector<std::string> both = {"solve", problem, (c.in / "deep" / "b.hdf5").string(),
                                          "--output"};
   std::vector<std::string> words = both;

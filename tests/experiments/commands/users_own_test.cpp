@@ -1,4 +1,4 @@
-// What is the user's stays: his files, his links and pipes, his logs; and what a run prints can be
+// Files, links, pipes and logs of the user stay as they are. The command that a run prints can be
 // pasted.
 
 #include <sys/stat.h>
@@ -19,7 +19,7 @@ std::string resting_box(int steps) {
          "position = [0, 0, 0.5]\n";
 }
 
-/// The same in a folder: `words` of a shell, in which "$@" is the program with these arguments.
+/// Runs the program in a folder. `words` are a shell's, in which "$@" calls it with `arguments`.
 ProgramResult in_folder(const fs::path& folder, const std::string& words,
                         const std::vector<std::string>& arguments) {
   return ballast_in_shell("cd '" + folder.string() + "' || exit; " + words, arguments);
@@ -64,7 +64,7 @@ TEST_CASE("no command writes over files of somebody's, and each may be repeated"
     check_failure(ballast_program(words), ExitCode::failure, {theirs});
     CHECK(read_whole_file(fs::path(theirs) / file) == "{}");
     CHECK(std::distance(fs::directory_iterator(theirs), {}) == 1);
-    if (words[1] == "article" || words[1] == "step") continue;  // of all rows, of a packing
+    if (words[1] == "article" || words[1] == "step") continue;  // need all rows or a packing
     words.back() = ours + file;
     REQUIRE(ballast_program(words).status == 0);
     const ProgramResult again = ballast_program(words);
@@ -139,7 +139,7 @@ TEST_CASE("the command that a stopped run prints can be pasted: blanks, any fold
     CHECK_THAT(command, Catch::Contains("--no-report") && Catch::Contains("solver.name=nncg") &&
                             Catch::Contains("--max-seconds 0.0001") &&
                             !Catch::Contains("--overwrite"));
-    // in so short a time no machine gets anywhere
+    // No machine finishes in so short a time.
     const size_t limit = command.find("--max-seconds 0.0001");
     if (times == 3) command.replace(limit, 20, "--max-seconds 500");
     result = run_program("/bin/sh", {"-c", command}, 500.0);
@@ -155,7 +155,7 @@ TEST_CASE("a page that could not be written is made by --continue, and by report
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "the run", page = run / "report.html";
   const std::vector<std::string> command{"run", "incline", "--output", run.string(), "--continue"};
-  // What a full disk does at that moment: the page cannot be opened for writing.
+  // Has the effect of a full disk at that moment: the page cannot be opened for writing.
   REQUIRE(ballast_program({"run", "incline", "--output", run.string(), "--no-report"}).status == 0);
   create_folder(run / "report.html.tmp");
   check_failure(ballast_program(command), ExitCode::failure, {page.string()});

@@ -30,7 +30,7 @@ const char* const small_list =
     "[[family]]\nname = \"pile\"\nmade = [\"pile:contacts=10,mass_ratio=100,count=8\"]\n"
     "[[family]]\nname = \"stress\"\nmade = [\"stress:all\"]\n";
 
-/// Rows of a table by its first column.
+/// The rows of a table, by their first column.
 std::map<std::string, std::map<std::string, std::string>> table(const fs::path& file) {
   std::map<std::string, std::map<std::string, std::string>> rows;
   CsvReader reader(file);
@@ -63,7 +63,7 @@ TEST_CASE("A collection that is made twice has the same bytes, and its manifest 
     INFO(name);
     families.insert(row.at("family"));
     CHECK(read_whole_file(a / "problems" / name) == read_whole_file(b / "problems" / name));
-    // What a comparison finds in the file.
+    // The facts in the table are those that a comparison finds in the file.
     const LoadedCase loaded = compare_cases({(a / "problems" / name).string()}).at(0).load();
     CHECK(row.at("content") == loaded.facts.content);
     CHECK(row.at("contacts") == std::to_string(loaded.facts.contacts));
@@ -80,7 +80,7 @@ TEST_CASE("A collection that is made twice has the same bytes, and its manifest 
   CHECK(std::ranges::count_if(references, [](const auto& r) {
           return r.second.at("exact") == "1";
         }) > static_cast<long>(rows.size()) - 3);
-  // Geometry, keys and the warm start are in the file.
+  // The file has the geometry, the keys and the warm start.
   const CapturedProblem problem = read_captured(a / "problems/pushed/2-step_0000010.hdf5");
   CHECK(problem.key.size() == static_cast<size_t>(problem.problem.contact_count()));
   CHECK(problem.start.size() == problem.problem.row_count());
@@ -93,7 +93,7 @@ TEST_CASE("The same command goes on where all is there, and the held part moves"
   REQUIRE(make(options, list) == ExitCode::ok);
   const std::string manifest = read_whole_file(made / "manifest.csv"),
                     references = read_whole_file(made / "references.csv");
-  // One problem, one reference and one run are lost.
+  // Removes one problem, one reference and one run.
   fs::remove(made / "problems/pushed/1-step_0000040.hdf5");
   fs::remove(made / "references/pushed/1-step_0000080.exact");
   fs::remove_all(made / "runs/pushed-2");
@@ -115,7 +115,7 @@ TEST_CASE("The same command goes on where all is there, and the held part moves"
   }
   CHECK(held > 2);
   CHECK(find_problems((made / "held").string()).size() == static_cast<size_t>(held));
-  // Steps that were kept otherwise are no part of this list.
+  // Steps that were captured by other settings do not belong to this list.
   fs::remove(made / "runs/pushed-1/capture/step_0000080.hdf5");
   CHECK_THROWS_WITH(make(options, list), Catch::Contains("has 2 steps, the list asks for 3"));
 }

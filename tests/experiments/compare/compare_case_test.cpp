@@ -1,4 +1,4 @@
-// Words of the command line -> cases from files, folders and patterns.
+// Words of the command line become cases: files, folders and patterns.
 
 #include "experiments/compare/compare_case.hpp"
 
@@ -30,7 +30,7 @@ TEST_CASE("Cases from files: families, names, and what is refused") {
   CHECK(cases[0].name == "a.dat");
   CHECK(cases[2].name == "a.dat (2)");
   CHECK(cases[1].word == (folder.path() / "b.dat").string());
-  // folders are searched to the bottom, and only for problems
+  // Folders are searched recursively, for problems only.
   std::filesystem::create_directories(folder.path() / "deep" / "deeper");
   folder.write("deep/deeper/Rover2.dat", "");
   folder.write("deep/Rover1.dat", "");
@@ -82,7 +82,7 @@ TEST_CASE("What is measured of a case") {
   CHECK(facts.dofs == 18);
   CHECK(facts.rank_deficiency == Approx(1.0 - 18.0 / 120.0));
   CHECK(facts.mass_ratio == Approx(1.0));
-  FrictionProblem stored = known.problem;  // W alone
+  FrictionProblem stored = known.problem;  // with W alone
   add_delassus_form(stored);
   stored.has_dynamics = false;
   CHECK(facts_of(stored).dofs == 0);

@@ -1,5 +1,5 @@
-// The page of a comparison: well-formed, with its figures beside it, and what it is given so that
-// it answers: the CSV's cells, histories that fit into a page, a command for every row.
+// The page of a comparison is well-formed, with its figures beside it, and has the data for its
+// answers: the CSV's cells, histories that fit into a page, a command for every row.
 
 #include "experiments/compare/compare_page.hpp"
 
@@ -34,8 +34,8 @@ TEST_CASE("The page of a comparison is well-formed and has what it promises") {
   check_page(without_scripts(page));
   CHECK(page.find("z&amp;&lt;1") != std::string::npos);
   CHECK(page.find("the judge denies it") != std::string::npos);
-  CHECK(page.find("unsolved in it") != std::string::npos);  // what a mean hides
-  // What the page makes by itself has a place where it can.
+  CHECK(page.find("unsolved in it") != std::string::npos);  // cases that the mean hides
+  // Where the page can answer, it has a place for each figure that it draws itself.
   for (const char* id : {"matrix", "profiles", "case-figures"})
     CHECK((page.find(std::string("id=\"") + id + "\"") != std::string::npos) == page::can_answer());
 }
@@ -49,7 +49,7 @@ TEST_CASE("What must not happen is told once, and what could not be read among i
   }
   rows.push_back(hand_made_row("broken.dat", "", 0.0, Verdict::unreadable));
   rows.back().note = "line 3: no number";
-  rows.push_back(hand_made_row("y", "a", 0.1, Verdict::timeout));  // says nothing: not told
+  rows.push_back(hand_made_row("y", "a", 0.1, Verdict::timeout));  // has no note: not listed
   Manifest("compare", {"ballast compare"}, "key").write(folder.path() / "manifest.json");
   write_compare_page(folder.path(), rows);
   const std::string page = without_scripts(read_whole_file(folder.path() / "compare.html")),
@@ -74,7 +74,7 @@ TEST_CASE("The page's data are the cells of the CSV, to the letter") {
                                   hand_made_row("y", "b", 60.0, Verdict::timeout)};
   rows[0].word = "my problems/x.dat";
   rows[0].prepare_seconds = 0.25;
-  rows[0].history.insert(rows[0].history.begin() + 2, {1, 0.06, 0.1});  // worse: not told
+  rows[0].history.insert(rows[0].history.begin() + 2, {1, 0.06, 0.1});  // a worse error: left out
   RunData run;
   run.stored_manifest = std::make_shared<const nlohmann::ordered_json>(
       nlohmann::ordered_json{{"summary", {{"memory_MB", 512.0}}}});
@@ -87,11 +87,11 @@ TEST_CASE("The page's data are the cells of the CSV, to the letter") {
     CHECK(data["columns"][compare_columns()[c]] == first + '\n' + second + '\n');
   }
   CHECK(data["limit"] == 60.0);
-  // a shell reads the word as one; a case without one is named
+  // A shell reads the word as one. A case without a word has its name.
   CHECK(data["more"]["word"] == "'my problems/x.dat'\ny\n");
   CHECK_THAT(data["again"].get<std::string>(),
              Catch::Contains("--measure natural_map --max-seconds 60 --memory 512 --output"));
-  // seconds, prepare included, and the least error by then, by turns
+  // By turns: seconds, with those of prepare, and the least error so far.
   const std::string history = "0.25 1 0.3 0.01 0.35 5e-05\n";
   CHECK(data["more"]["history"].get<std::string>().substr(0, history.size()) == history);
 }
@@ -129,7 +129,7 @@ TEST_CASE("Times are medians over repeats, and solved is what every repeat solve
   CHECK(a.mean_ratio == Approx(1.0));
   CHECK(a.largest_spread == 1.0);
   CHECK(b.solved == 0);
-  CHECK(b.mean_seconds == Approx(60.0));  // the limit
+  CHECK(b.mean_seconds == Approx(60.0));  // the limit counts
 }
 
 TEST_CASE("Tables come from the loosest tolerance, and a case counts where it was tried") {
@@ -143,7 +143,7 @@ TEST_CASE("Tables come from the loosest tolerance, and a case counts where it wa
   CHECK(tables[0].heading == "Tolerance 0.01, cold start");
   CHECK(tables[1].heading == "Tolerance 0.0001, cold start");
   CHECK(tables[2].heading == "Tolerance 0.0001, warm start");
-  CHECK(std::isnan(tables[1].backends.at(0).mean_ratio));  // nobody solved anything
+  CHECK(std::isnan(tables[1].backends.at(0).mean_ratio));  // no backend solved anything
 }
 
 TEST_CASE("Who solves most comes first, and what was not solved counts with the limit") {
@@ -166,7 +166,7 @@ TEST_CASE("Who solves most comes first, and what was not solved counts with the 
   CHECK(all[1].solver == "a");
   CHECK(all[0].unsolved == 0);
   CHECK(all[1].timeouts == 1);
-  CHECK(all[1].unsolved == 1);  // in the mean with the limit
+  CHECK(all[1].unsolved == 1);  // counts in the mean with the limit
   CHECK(all[1].mean_seconds == Approx(std::sqrt(1.001 * 60.001) - 0.001));
   CHECK(all[2].solver == "c");
   CHECK(all[2].crashes == 1);

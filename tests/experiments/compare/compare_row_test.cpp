@@ -1,4 +1,4 @@
-// A row's file and its line of the CSV.
+// The file of a row, and its line in the CSV.
 
 #include "experiments/compare/compare_row.hpp"
 
@@ -31,7 +31,7 @@ TEST_CASE("A row survives its file to the last bit") {
   CHECK(back.history[1].error == 5e-324);
   CHECK(compare_csv(std::vector{row}).find("\"a, \"\"b\"\"\"") != std::string::npos);
   CompareRow asked = row;
-  asked.word = "a.dat";  // in no file
+  asked.word = "a.dat";  // is not stored in the file
   const CompareRow again = compare_row_of_json(to_json(row), "file", asked);
   CHECK((again.word == "a.dat" && to_json(again) == to_json(row)));
   CHECK_THROWS_WITH(compare_row_of_json("{}", "row.json"),

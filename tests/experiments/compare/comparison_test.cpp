@@ -1,4 +1,4 @@
-// A comparison tries every combination once, keeps what is there, and goes on after any death.
+// A comparison tries every combination once, keeps stored rows, and goes on after any crash.
 
 #include "experiments/compare/comparison.hpp"
 
@@ -51,13 +51,13 @@ TEST_CASE("Rows that are there are not made again; damage or other options make 
   CHECK(made == 4);
   REQUIRE(second.size() == first.size());
   for (size_t k = 0; k < first.size(); ++k) CHECK(to_json(first[k]) == to_json(second[k]));
-  // a damaged one is made again
+  // A damaged row is made again.
   const fs::path file = folder.path() / "rows" / (first[0].key + ".json");
   write_whole_file(file, read_whole_file(file).substr(0, 40));
   CHECK(run_comparison(one_case(), options, count).at(0).verdict == Verdict::solved);
   CHECK(made == 5);
   CHECK(compare_row_of_json(read_whole_file(file), file.string()).key == first[0].key);
-  // and one that is another row's
+  // So is one with the content of another row.
   write_whole_file(file, to_json(first[1]));
   CHECK(run_comparison(one_case(), options, count).at(0).tolerance == first[0].tolerance);
   CHECK(made == 6);
@@ -107,7 +107,7 @@ TEST_CASE("An interrupt stops the comparison after the row under way") {
       return !InterruptGuard::requested();
     });
   }
-  const InterruptGuard forgotten;  // for the tests that follow
+  const InterruptGuard forgotten;  // forgets the interrupt for the tests that follow
   CHECK(rows.size() == 2);
   CHECK(read_whole_file(folder.path() / "manifest.json").find("the same command goes on") !=
         std::string::npos);
@@ -128,7 +128,7 @@ TEST_CASE("Every case is tried by every solver to every tolerance, and the table
                        CHECK(count == 16);
                        return true;
                      });
-  CHECK(last == 16);  // what cannot be tried counts as done
+  CHECK(last == 16);  // combinations that cannot be tried count as done
   REQUIRE(rows.size() == 8);
   CHECK(rows[0].solver == "pgs");
   CHECK(rows[1].solver == "nncg");
@@ -197,14 +197,14 @@ TEST_CASE("A case that cannot be read is one row with its reason, and the others
   };
   const std::vector<CompareRow> rows = run_comparison(cases, options, follow);
   CHECK(last == 24);
-  REQUIRE(rows.size() == 4 + 1 + 4 + 8);  // not again in the second repeat
+  REQUIRE(rows.size() == 4 + 1 + 4 + 8);  // the unreadable case has one row, also with two repeats
   CHECK(rows[4].verdict == Verdict::unreadable);
   CHECK(rows[4].case_name == "broken.dat");
   CHECK(rows[4].solver.empty());
   CHECK_THAT(rows[4].note, Catch::Contains(broken));
   CHECK(std::ranges::count(rows, Verdict::solved, &CompareRow::verdict) == 16);
   CHECK(read_whole_file(folder.path() / "results.csv").find("unreadable") != std::string::npos);
-  // once mended it is tried
+  // Once mended, the case is tried.
   write_whole_file(broken, "3\n1\n0 3 3\n3 3\n1 0 0 0 1 0 0 0 1\n-1 0 0\n0.5\n");
   last = 0;
   const std::vector<CompareRow> mended = run_comparison(cases, options, follow);

@@ -7,7 +7,7 @@
 
 namespace ballast {
 
-/// `shift` of the grain and the wall [m] against the reference's.
+/// `shift`: distance of the grain and of the wall from the reference's [m].
 inline Trajectory hand_made_trajectory(const char* solver, double tolerance, double shift) {
   Trajectory t;
   t.solver = solver;
@@ -33,7 +33,7 @@ inline Trajectory hand_made_trajectory(const char* solver, double tolerance, dou
   return t;
 }
 
-/// A reference, a looser solution 3 µm away, and one that made no step.
+/// A reference, a looser trajectory that is 3 µm away, and one without steps.
 inline LiveComparison hand_made_live() {
   LiveComparison live;
   live.scene.name = "hand & made";

@@ -1,5 +1,5 @@
-// The closed loop from one start: equal settings are equal bits, looser tolerances are farther from
-// the reference.
+// The closed loop from one start: equal settings give equal bits, and looser tolerances end farther
+// from the reference.
 
 #include "experiments/compare/live_page.hpp"
 
@@ -20,7 +20,7 @@ using namespace ballast;
 
 namespace {
 
-/// A dozen grains in a driven box.
+/// The options for a dozen grains in a driven box.
 LiveOptions small_live(const std::filesystem::path& folder) {
   LiveOptions options;
   options.scene = "vibrated_box_small";
@@ -70,7 +70,7 @@ TEST_CASE("One start under several backends and tolerances") {
     for (const StepRecord& step : t.steps)
       CHECK(step.error_rms <= t.tolerance * comparison.velocity_scale);
   }
-  REQUIRE(comparison.reference >= 2);  // one of the tight ones
+  REQUIRE(comparison.reference >= 2);  // one with the tight tolerance
   const Trajectory& reference = *comparison.reference_trajectory();
   for (const Trajectory& t : comparison.trajectories)
     CHECK(reference.mean_error() <= t.mean_error());
@@ -80,7 +80,7 @@ TEST_CASE("One start under several backends and tolerances") {
   CHECK(distances(reference, reference).back() == 0.0);
   CHECK(loose > 0.0);
   CHECK(other_backend < loose);
-  // from the files the same, and damaged ones are made again
+  // Reading the files gives the same; damaged files are made again.
   for (const bool are_damaged : {false, true}) {
     if (are_damaged)
       for (const auto& file : std::filesystem::directory_iterator(folder.path() / "trajectories"))
@@ -116,7 +116,7 @@ TEST_CASE("Trajectories of so many iterations stand beside those to a tolerance"
   const Curve& line = accuracy->plot.panels[0].curves[0];
   CHECK(line.title == "pgs");
   REQUIRE(line.x.size() == 3);
-  for (size_t k = 0; k < 3; ++k) {  // 2e-4 s a step: a second of them is 5000
+  for (size_t k = 0; k < 3; ++k) {  // 5000 steps of 2e-4 s make a second
     const auto found = std::ranges::find(line.y, number_of("error_mean", k, live));
     REQUIRE(found != line.y.end());
     const double cost = line.x[static_cast<size_t>(found - line.y.begin())];
@@ -129,11 +129,11 @@ TEST_CASE("Trajectories of so many iterations stand beside those to a tolerance"
 TEST_CASE("The reference is complete, of the exact law, and of the least mean error") {
   std::vector<Trajectory> all = {hand_made_trajectory("pgs", 1e-1, 0.0),
                                  hand_made_trajectory("nncg", 1e-2, 0.0)};
-  CHECK(reference_of(all) == 0);  // equal: first listed
+  CHECK(reference_of(all) == 0);  // of equals, the first in the list
   all[0].steps[1].error_rms *= 2.0;
   CHECK(reference_of(all) == 1);
   all[1].steps[0].error_rms = 0.0;
-  all[1].steps[1].error_rms = std::nan("");  // whatever the others are
+  all[1].steps[1].error_rms = std::nan("");  // makes the mean not finite
   CHECK(reference_of(all) == 0);
   all[0].ended = "time limit";
   CHECK(reference_of(all) == -1);
@@ -183,11 +183,11 @@ TEST_CASE("A trajectory comes to its means, its worst and its end") {
                                     {"distance_end", 3e-6}}) {
     INFO(name);
     CHECK(number_of(name, 1, live) == Approx(value));
-    CHECK(std::isnan(number_of(name, 2, live)));  // it made no step
+    CHECK(std::isnan(number_of(name, 2, live)));  // has no step
   }
   CHECK(number_of("missed", 0, live) == 0.0);
   CHECK(number_of("distance_end", 0, live) == 0.0);
-  // without a driven wall or a reference nothing is said of them
+  // Without a driven wall or a reference their columns are empty and their figures missing.
   live.has_driven_wall = false;
   live.reference = -1;
   for (const char* name : {"wall_x_end", "wall_force_mean", "distance_end"})
@@ -216,16 +216,16 @@ TEST_CASE("Every trajectory with something to show is a line") {
   const page::Picture* wall = find_figure(figures, "live_wall");
   REQUIRE(wall);
   const std::vector<Curve>& curves = wall->plot.panels[0].curves;
-  REQUIRE(curves.size() == 2);  // the third made no step
+  REQUIRE(curves.size() == 2);  // the third has no step
   CHECK(curves[0].title == "pgs 0.1");
   CHECK(curves[0].y == std::vector<double>{1.0, 2.0});  // mm
   CHECK(curves[1].ink != curves[0].ink);
-  CHECK(curves[1].fineness < curves[0].fineness);  // tighter
+  CHECK(curves[1].fineness < curves[0].fineness);  // has the tighter tolerance
   CHECK(curves[0].opacity == 1.0);
   const page::Picture* cost = find_figure(figures, "live_cost");
   REQUIRE(cost);
-  CHECK(cost->plot.panels[0].curves[0].y[1] == Approx(3e-3));  // summed up
-  // distances and deviations are the others' from the reference
+  CHECK(cost->plot.panels[0].curves[0].y[1] == Approx(3e-3));  // the sum over steps
+  // Distances and deviations are those of the others from the reference.
   for (const char* name : {"live_distance", "live_wall_deviation"}) {
     INFO(name);
     const page::Picture* figure = find_figure(figures, name);
@@ -239,7 +239,7 @@ TEST_CASE("Every trajectory with something to show is a line") {
 
 TEST_CASE("The page of a closed loop says who was the reference, and what others' words were") {
   const TemporaryFolder folder;
-  CHECK_THROWS_AS(write_live_page(folder.path(), hand_made_live()), Error);  // no manifest
+  CHECK_THROWS_AS(write_live_page(folder.path(), hand_made_live()), Error);  // there is no manifest
   Manifest("compare --live x", {}, "key").write(folder.path() / "manifest.json");
   write_live_page(folder.path(), hand_made_live());
   const std::string page = read_whole_file(folder.path() / "live.html");

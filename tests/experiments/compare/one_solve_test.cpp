@@ -1,4 +1,4 @@
-// Whatever a backend does to its process becomes a row, and nobody is believed without the judge.
+// Any behaviour of a backend becomes a row, and no claim is believed without the judge.
 
 #include "experiments/compare/one_solve.hpp"
 
@@ -21,7 +21,7 @@ using namespace ballast;
 
 namespace {
 
-/// A backend of the test that does to the process what a broken one might.
+/// A backend that does to its process what a broken one might do.
 template <typename Act>
 class Misbehaving final : public Solver {
  public:
@@ -66,15 +66,15 @@ std::unique_ptr<Solver> misbehaving() {
   return std::make_unique<Misbehaving<Act>>();
 }
 
-/// Whose solver is made here; `key`: as if it were a program, without a child.
+/// A backend that `make` makes. With a `key` it counts as an external program and has no child.
 ComparedSolver made_by(MakeSolver make, std::string key = {}) {
   return {"", ContactLaw::coulomb, std::move(make), std::move(key)};
 }
 
-/// One run. Sanitizers reserve terabytes.
+/// A single run, without a memory limit: sanitizers reserve terabytes.
 const SolveLimits once{.memory_MB = 0.0, .warm_seconds = 0.0};
 
-/// A small problem tried by `make` to `tolerance`.
+/// The row of a small problem that `make`'s solver solves to `tolerance`.
 CompareRow tried(SolverMaker make, double tolerance, double max_seconds = 20.0) {
   static const LoadedCase loaded = compare_cases({"known:contacts=12,bodies=6,seed=3"})[0].load();
   CompareRow row;
@@ -101,7 +101,7 @@ TEST_CASE("Whatever a backend does becomes a row") {
   CHECK(refused.note == "refuse: on purpose");
   CHECK(refused.reason.empty());
   CHECK(tried(misbehaving<NoMemory>, 1e-6).verdict == Verdict::out_of_memory);
-  // a row without an answer has no error, not a small one
+  // A row without an answer has no error, instead of a small one.
   CHECK(std::isnan(tried(misbehaving<Crash>, 1e-6).error));
 }
 
@@ -183,14 +183,14 @@ struct StartUp {
 TEST_CASE("Start-up is a column of its own, and in no other") {
   const CompareRow row = tried(misbehaving<StartUp>, 1e-6);
   CHECK(row.startup_seconds > 0.0);
-  CHECK(row.startup_seconds < 5.0);  // it says more than there was
+  CHECK(row.startup_seconds < 5.0);  // the backend claims more time than has passed
   CHECK(row.solve_seconds == 0.0);
-  CHECK(tried(find_solver("pgs").make, 1e-6).startup_seconds > 0.0);  // making the solver
+  CHECK(tried(find_solver("pgs").make, 1e-6).startup_seconds > 0.0);  // the time to make the solver
 }
 
 namespace {
 
-/// Another backend, with a note of every budget that it was given.
+/// Another backend, with a record of every budget that it was given.
 class Noting final : public Solver {
  public:
   Noting(const std::string& name, std::vector<Budget>& budgets)
@@ -233,7 +233,7 @@ TEST_CASE("The natural map needs one round, in units of the velocity scale") {
 }
 
 TEST_CASE("Every backend stops on the measure of Siconos, and not far below it") {
-  // Methods whose error falls by little from one look to the next.
+  // Methods whose error falls by little between two checks.
   const std::set<std::string> slow = {"pgs", "nncg", "apgd"};
   for (const double mass_unit : {1.0, 1e4}) {  // W ~ 1e-4: the two measures lie far apart
     const LoadedCase loaded = heavy_case(mass_unit);
@@ -252,7 +252,7 @@ TEST_CASE("Every backend stops on the measure of Siconos, and not far below it")
       if (row.reason == "reached_tolerance") CHECK(row.judged.fclib <= 1e-4);
       if (!slow.contains(entry.name)) continue;
       CHECK(row.verdict == Verdict::solved);
-      // Who is there at its first look, after eight sweeps, had no chance to stop before.
+      // A method that reaches it at its first check, after eight sweeps, could not stop before.
       if (row.iterations > 8) CHECK(row.judged.fclib > 1e-6);
     }
   }
@@ -290,13 +290,13 @@ TEST_CASE("An exact answer is found, kept and judged anew") {
   CHECK((u - known.u).norm() < 1e-6 * known.u.norm());
   const auto file = std::filesystem::directory_iterator(folder.path() / "exact")->path();
   const std::string bytes = read_whole_file(file);
-  // From its file; damaged, or of another problem, it is found again.
+  // The stored answer is read; a damaged one, or that of another problem, is computed again.
   for (const std::string& kept : {bytes, bytes.substr(0, 20), std::string(bytes.size(), '\1')}) {
     write_whole_file(file, kept);
     CHECK(found(known.problem, 10.0) == exact);
     CHECK(read_whole_file(file) == bytes);
   }
   CHECK(found(only_delassus(known.problem), 10.0).size() == exact.size());
-  CHECK(found(known.problem, 0.0).size() == 0);  // not looked for
+  CHECK(found(known.problem, 0.0).size() == 0);  // no time, hence not computed
   CHECK(found(squeezed_contacts(), 0.2).size() == 0);
 }

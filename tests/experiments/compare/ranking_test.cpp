@@ -12,7 +12,7 @@ using namespace ballast;
 
 namespace {
 
-/// A case of run `run` on which the backends a, b, ... take so many seconds; 0: not solved.
+/// A case of run `run` on which the backends a, b, ... take these seconds; 0: not solved.
 void add_case(std::vector<CompareRow>& rows, const std::string& name,
               const std::vector<double>& seconds) {
   for (size_t s = 0; s < seconds.size(); ++s) {
@@ -35,7 +35,7 @@ TEST_CASE("Cases that every backend tried are compared, unsolved ones with the l
   add_case(rows, "x", {1.0, 2.0});
   add_case(rows, "y", {0.0, 2.0});
   add_case(rows, "z", {1.0});                                        // b did not try it
-  rows.push_back(hand_made_row("x", "a", 3.0, Verdict::solved, 1));  // median 2
+  rows.push_back(hand_made_row("x", "a", 3.0, Verdict::solved, 1));  // its median becomes 2
   rows.push_back(hand_made_row("w", "", 0.0, Verdict::unreadable));
   rows.push_back(hand_made_row("x", "a", 1.0, Verdict::solved));
   rows.back().tolerance = 1e-8;
@@ -66,7 +66,7 @@ TEST_CASE("Ranks are by mean time, and their range is where they are sure") {
   CHECK(ranks[1].high == 3.0);
   CHECK(ranks[3].value == 4.5);
   CHECK(ranks[4].low == 4.5);
-  // The same draws every time; none where there are too few runs.
+  // The draws are the same every time. With too few runs there is no range.
   CHECK(ranks_of(tried[0], all_of(tried[0]))[2].low == ranks[2].low);
   std::vector<Eigen::Index> few = all_of(tried[0]);
   few.resize(4);  // two runs

@@ -29,7 +29,7 @@ TEST_CASE("A comparison is read back in the order of its rows, with its machine 
     folder.write("rows/" + rows[k].key + ".json", to_json(rows[k]));
   }
   folder.write("rows/half.json.tmp", "{");
-  // the last row is of another program or limit: the folder's table does not have it
+  // The last row is of another program or limit: the folder's table does not have it.
   folder.write("results.csv", compare_csv(std::span(rows).first(4)));
   Manifest("compare", {}, "key").write(folder.path() / "manifest.json");
   const StoredComparison read = read_comparison(folder.path());
@@ -64,7 +64,7 @@ CompareRow solve_of(const char* content, const char* name, const char* solver, d
   return row;
 }
 
-/// Two machines; the fast one was asked twice.
+/// Comparisons on two machines, of which the fast one measured one solve twice.
 std::vector<StoredComparison> three_comparisons() {
   return {{"new", "fast", "b", "2026-02-01", {solve_of("1", "x", "pgs", 2.0)}},
           {"old",
@@ -88,15 +88,15 @@ TEST_CASE("Of each solve on a machine the newest comparison's rows count") {
   REQUIRE(all.rows.size() == 5);
   CHECK(all.rows[0].solver == "nncg");
   CHECK(all.rows[1].solve_seconds == 2.0);
-  // A problem is what it holds: it has one name everywhere, and another one has another. Times are
-  // only divided within a machine: a case is of one.
+  // A problem is identified by its content, under one name in all comparisons; another problem has
+  // another name. Times are compared within one machine only: a case belongs to one.
   const char* names[] = {"M1 · x", "M1 · x", "M2 · x", "M2 · x", "M2 · x (2)"};
   for (size_t k = 0; k < 5; ++k) CHECK(all.rows[k].case_name == names[k]);
-  // pgs over nncg: 2 on the fast machine, 4 on the slow one
+  // pgs over nncg is 2 on the fast machine and 4 on the slow one.
   const std::vector<BackendSummary> backends = compare_tables(all.rows).at(0).backends;
   CHECK(backends.at(0).solver == "pgs");
   CHECK(backends[0].mean_ratio == Approx(std::cbrt(2.0 * 4.0)).epsilon(1e-3));
-  // Jobs of one machine are one comparison.
+  // Jobs on one machine are one comparison.
   auto comparisons = three_comparisons();
   comparisons.pop_back();
   CHECK(merged(comparisons).rows[1].case_name == "x");

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file for ParaView, which is well-formed.
+/// The text of a file for ParaView, checked to be well-formed.
 std::string read_xml(const fs::path& file) {
   const std::string head = "<?xml version=\"1.0\"?>\n", text = file_bytes(file);
   REQUIRE(text.starts_with(head));
@@ -23,7 +23,7 @@ std::string read_xml(const fs::path& file) {
   return text;
 }
 
-/// The numbers of the DataArray of that name: an UInt64 count of bytes, then the bytes.
+/// The numbers of the DataArray of that name: an UInt64 with the number of bytes, then the bytes.
 template <class Number>
 std::vector<Number> vtk_array(const std::string& xml, const std::string& name) {
   const char* type = std::is_same_v<Number, float> ? "Float32" : "Int32";
@@ -201,7 +201,7 @@ TEST_CASE("a series: files for ParaView with their times, and the contacts of a 
                  Contains("file=\"grains_00000050.vtp\""));
   CHECK_THAT(file_bytes(series / "grains_contacts.pvd"),
              Contains("timestep=\"0.01\" part=\"0\" file=\"grains_contacts_00000050.vtp\""));
-  // before the first step there are none
+  // Before the first step there are no contacts.
   for (const int count : {0, 3}) {
     const fs::path file = series_file(series / "grains_contacts.vtp", count == 0 ? 0 : 50);
     const std::string xml = read_xml(file);

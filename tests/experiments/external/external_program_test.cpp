@@ -1,4 +1,4 @@
-// A solver that is a program: Ballast itself behind its own protocol, and programs that break it.
+// Solvers that are programs: Ballast itself behind its own protocol, and programs that break it.
 
 #include "experiments/external/external_program.hpp"
 
@@ -34,7 +34,7 @@ SolverRun solved_by(const ExternalCommand& command, double max_seconds = 20.0) {
 }  // namespace
 
 TEST_CASE("Ballast behind its own protocol solves as it does here") {
-  // Three rows at every contact, so that the file's problem is the one here.
+  // With three rows at every contact the problem in the file is the problem here.
   const FrictionProblem problem =
       make_known_solution({.bodies = 6, .contacts = 12, .frictionless_fraction = 0.0, .seed = 3})
           .problem;
@@ -43,7 +43,7 @@ TEST_CASE("Ballast behind its own protocol solves as it does here") {
   REQUIRE(here.is_solved());
   const bool is_served = GENERATE(false, true);
   const auto make = external_solver({"own", own, is_served, ""}, limits);
-  // More than one problem for the same process.
+  // Solves two problems, which a served program takes in one process.
   for (int repeat = 0; repeat < 2; ++repeat) {
     const SolverRun there = SolverRunner().run(*make(), problem, {}, budget);
     CHECK(there.is_solved());
@@ -74,7 +74,7 @@ TEST_CASE("A program that does not answer is killed") {
 
 TEST_CASE("A served program that died or failed is asked again for the next problem") {
   const TemporaryFolder folder;
-  // Dies in its first life, works in its second.
+  // This program dies in its first life and works in its second.
   const std::string mark = (folder.path() / "mark").string();
   const std::string command =
       "test -e " + mark + " || { touch " + mark + "; echo ready; read line; exit 9; }; exec " + own;
@@ -180,12 +180,12 @@ TEST_CASE("A request comes back as the same problem, in both forms") {
   CHECK(read.id == 5);
   CHECK(read.problem.has_dynamics);
   CHECK(contact_error(read.problem, read.start).natural_map_max < 1e-12);
-  {  // W, for who does not want M and H.
+  {  // W, for programs that do not use M and H
     const Hdf5Reader file(a.file);
     CHECK(file.has("/fclib_global/H"));
     CHECK(file.shape("/fclib_local/vectors/q")[0] == 36);
   }
-  // Where only W is known, it is what bodies' readers get.
+  // Where only W is known, programs that read bodies get W too.
   Asked stored;
   stored.request.problem = condensed(a.known.problem);
   stored.request.start = three_rows(a.known.problem, a.known.r);

@@ -1,4 +1,4 @@
-// Fits on data whose answers are known; tests of significance against published tables and worked
+// Fits of data with known answers; tests of significance against published tables and worked
 // examples.
 
 #include "experiments/measure/curve_fit.hpp"
@@ -25,14 +25,14 @@ std::vector<double> map(const std::vector<double>& x, F f) {
   return y;
 }
 
-/// Twelve uniform numbers: normal enough here.
+/// A sum of twelve uniform numbers, which is close enough to a normal one here.
 double gauss(Random& random) {
   double sum = -6.0;
   for (int k = 0; k < 12; ++k) sum += random.uniform(0.0, 1.0);
   return sum;
 }
 
-/// Columns 1, x, x^2 ... for x = 0 ... points - 1.
+/// A matrix with the columns 1, x, x^2 ... for x = 0 ... points - 1.
 Eigen::MatrixXd powers(int points, int values) {
   Eigen::MatrixXd design(points, values);
   for (int k = 0; k < points; ++k)
@@ -42,7 +42,7 @@ Eigen::MatrixXd powers(int points, int values) {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// A number of a published table beside what is computed.
+/// A number of a published table beside the computed one.
 struct Published {
   double computed, printed, relative = 1e-3;
 };
@@ -50,8 +50,8 @@ struct Published {
 }  // namespace
 
 TEST_CASE("a line through scattered points: worked by hand") {
-  // means 1.5 and 2; Sxx = 5, Sxy = 3, slope 0.6; residuals -0.1, 0.3, -0.3, 0.1 (squares 0.2),
-  // total 2
+  // Means 1.5 and 2; Sxx = 5, Sxy = 3, slope 0.6; residuals -0.1, 0.3, -0.3, 0.1 with the sum of
+  // squares 0.2 of 2 in total.
   const std::vector<double> x{0, 1, 2, 3}, y{1, 2, 2, 3};
   const LineFit fit = fit_line(x, y);
   CHECK(fit.slope == Approx(0.6));
@@ -65,7 +65,7 @@ TEST_CASE("an exponential gives back its parameters, rising, falling, flat, far 
   const auto x = grid(origin, origin + 2e-3, 200);
   const ExponentialFit fit =
       fit_exponential(x, map(x, [&](double t) { return 500.0 * std::exp(rate * (t - origin)); }));
-  // rate is found to within the golden section's last interval, about 1e-8 of 1/range
+  // The rate is exact to the golden section's last interval, about 1e-8 of 1/range.
   CHECK(fit.rate == Approx(rate).epsilon(1e-6).margin(1e-3));
   CHECK(fit.at(origin) == Approx(500.0).epsilon(1e-6));
   if (rate != 0.0) CHECK(fit.r2 == Approx(1.0).epsilon(1e-9));
@@ -102,7 +102,7 @@ TEST_CASE("fits pass over samples that are not finite, and know nothing of too f
   CHECK(std::isnan(fit_line(same, values).slope));
   CHECK(std::isnan(fit_exponential(same, values).rate));
   CHECK(std::isnan(fit_exponential(none, none).r2));
-  CHECK(std::isnan(fit_line(values, same).r2));  // constant y: nothing to explain
+  CHECK(std::isnan(fit_line(values, same).r2));  // y is constant: no variance to explain
   CHECK_THROWS_AS(fit_line(one, values), std::invalid_argument);
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("the low-pass keeps lines, kills what is faster than its window, shift
   for (double value : spread) sum += value;
   CHECK(sum == Approx(1.0));
 
-  // gaps stay where they are
+  // Gaps stay where they are.
   std::vector<double> y(50, 4.0);
   y[20] = not_known;
   const auto smooth = low_pass(y, 9);
@@ -206,12 +206,12 @@ TEST_CASE("Eq. 5 is found again, with an interval around its corner; its gain ma
   const PeakedRate given = fit_peaked_rate(nu, exact, gain);
   CHECK(given.gain == gain);
   CHECK(given.critical == Approx(9.0).epsilon(2e-3));
-  // twice the gain wants an earlier corner, and misses the points
+  // Twice the gain gives an earlier corner, and the curve misses the points.
   const PeakedRate wrong = fit_peaked_rate(nu, exact, 2.0 * gain);
   CHECK(wrong.gain == 2.0 * gain);
   CHECK(wrong.critical < 8.0);
   CHECK(wrong.r2 < given.r2);
-  // a rate that only grows puts the corner at the end of the data
+  // A rate that only grows puts the corner at the end of the data.
   const PeakedRate growing = fit_peaked_rate(nu, nu);
   CHECK(growing.critical == Approx(60.0));
   CHECK(growing.gain == Approx(1.0));
@@ -225,11 +225,11 @@ TEST_CASE("chi^2 says whether points lie on a power law within their errors") {
       points.add(std::pow(2.0, k), {y, relative * y, 3});
     }
     CHECK(points.errors_from == 8);
-    points.add(3.0, {1.0, not_known, 1});  // one sample has no error, and no say
+    points.add(3.0, {1.0, not_known, 1});  // a point of one sample has no error and no weight
     return misfit_of(points);
   };
   CHECK(misfit(0.0, 0.1).ratio == Approx(0.0).margin(1e-12));
-  // four residuals of one error each over two degrees of freedom
+  // Four residuals of one error each give chi^2 = 4 over two degrees of freedom.
   CHECK(misfit(0.1, 0.1).ratio == Approx(2.0));
   CHECK(misfit(0.1, 0.1).p == Approx(f_p(2.0, 2, 8)));
   CHECK(misfit(0.1, 0.01).ratio == Approx(200.0));
@@ -239,14 +239,14 @@ TEST_CASE("chi^2 says whether points lie on a power law within their errors") {
 
 TEST_CASE("Student's t, F and chi squared have the p and the quantiles of the tables") {
   const Published table[] = {
-      // two-sided, Abramowitz and Stegun table 26.10
+      // Two-sided, from Abramowitz and Stegun, table 26.10.
       {student_p(12.706, 1), 0.05},
       {student_p(63.657, 1), 0.01},
       {student_p(4.303, 2), 0.05},
       {student_p(-2.228, 10), 0.05},
       {student_p(2.845, 20), 0.01},
       {student_p(0.0, 5), 1.0},
-      // with one degree of freedom t is Cauchy's, with two there is a closed form
+      // With one degree of freedom t is Cauchy's; with two there is a closed form.
       {student_p(1.0, 1), 0.5, 1e-9},
       {student_p(3.0, 2), 1.0 - 3.0 / std::sqrt(11.0), 1e-9},
       {student_t95(1), 12.706, 1e-4},
@@ -258,11 +258,11 @@ TEST_CASE("Student's t, F and chi squared have the p and the quantiles of the ta
       {f_p(10.04, 1, 10), 0.01, 3e-3},
       {f_p(2.98, 10, 10), 0.05, 3e-3},
       {f_p(0.0, 3, 5), 1.0},
-      // chi^2 of 18.307 at 10 degrees of freedom, of 3.841 at 1
+      // chi^2 of 18.307 at 10 degrees of freedom, of 3.841 at 1.
       {f_p(18.307 / 10.0, 10, unbounded), 0.05},
       {f_p(3.841, 1, unbounded), 0.05},
       {f_p(37.566 / 20.0, 20, unbounded), 0.01},
-      // t squared is F with one degree of freedom above
+      // t squared is F with one degree of freedom in the numerator.
       {f_p(2.5 * 2.5, 1, 7), student_p(2.5, 7), 1e-9}};
   for (const Published& row : table) {
     INFO(row.printed);
@@ -278,7 +278,7 @@ TEST_CASE("Holm's correction of a worked example, in the order given") {
   CHECK(corrected[4] == Approx(0.02));  // 4 x 0.005
   CHECK(corrected[1] == Approx(0.03));  // 3 x 0.01
   CHECK(corrected[3] == Approx(0.06));  // 2 x 0.03
-  CHECK(corrected[0] == Approx(0.06));  // 0.04, but not below the one before
+  CHECK(corrected[0] == Approx(0.06));  // 0.04, but not below the previous one
   CHECK(std::isnan(corrected[2]));
   CHECK(holm(std::vector<double>{0.6, 0.7})[0] == 1.0);
 }
@@ -304,7 +304,7 @@ TEST_CASE("Student's own pairs: the extra hours of sleep of ten patients") {
   CHECK(paired.p() == Approx(0.002833).epsilon(1e-3));
   CHECK(paired.half_width() == Approx(2.262 * paired.error).epsilon(1e-3));
   CHECK(std::isnan(sample_mean(std::vector<double>{1.0}).p()));
-  // of two groups F is t^2
+  // For two groups F is t^2.
   const VarianceRatio between = difference_of(std::vector{a, b});
   CHECK(between.ratio == Approx(4.0621 * 4.0621).epsilon(1e-4));
   CHECK(between.p == Approx(0.002833).epsilon(1e-3));
@@ -335,8 +335,8 @@ TEST_CASE("a parabola is found exactly, and its slope with it") {
 
 TEST_CASE("a further value counts only when it mends more than chance does") {
   Eigen::VectorXd bent(6), noisy(6);
-  bent << 0.1, 0.9, 4.1, 8.9, 16.1, 24.9;  // x^2 with an alternating tenth
-  noisy << 0.1, 0.9, 2.1, 2.9, 4.1, 4.9;   // x with it
+  bent << 0.1, 0.9, 4.1, 8.9, 16.1, 24.9;  // x^2 with an alternating error of 0.1
+  noisy << 0.1, 0.9, 2.1, 2.9, 4.1, 4.9;   // x with this error
   const Eigen::VectorXd error = Eigen::VectorXd::Constant(6, 0.1);
   const auto p = [&](const Eigen::VectorXd& y) {
     return improvement(fit_weighted(powers(6, 2), y, error), fit_weighted(powers(6, 3), y, error))

@@ -1,4 +1,4 @@
-// A roll against shear and translation: fields whose circulation is known.
+// The measure of a roll on fields of known circulation, among them shear and translation.
 
 #include "experiments/measure/run_summary.hpp"
 
@@ -10,7 +10,7 @@ using namespace ballast;
 
 namespace {
 
-/// Grains on a grid in [0, 2] x [0, 1] of the xz plane, moved by a function of place.
+/// Grains on a grid in [0, 2] x [0, 1] of the xz plane, displaced by a function of their place.
 template <class Move>
 std::vector<Displacement> moved(const Move& move) {
   std::vector<Displacement> list;
@@ -27,7 +27,7 @@ constexpr XzRectangle middle{0.5, 1.5, 0.25, 0.75};
 }  // namespace
 
 TEST_CASE("a turn as of a rigid body goes round, with twice its angle times the area") {
-  const double angle = 0.01;  // clockwise: right at the top
+  const double angle = 0.01;  // clockwise: the top moves to the right
   const auto field =
       moved([&](const Vec3& x) { return Vec3(angle * (x.z() - 0.5), 0, -angle * (x.x() - 1.0)); });
   const Roll roll = roll_of(field, middle, 0.01);
@@ -84,9 +84,9 @@ TEST_CASE("displacements of whole periods are taken between the frames at their 
   periods[0].begin = 0.1;
   periods[0].end = 0.2;
   periods[1].begin = 0.2;
-  periods[1].end = 0.30005;  // half a step away
+  periods[1].end = 0.30005;  // half a step from the frame
   periods[2].begin = 0.3;
-  periods[2].end = 0.4;  // no frame there
+  periods[2].end = 0.4;  // has no frame
   const auto moves = period_displacements(frames, run);
   REQUIRE(moves.size() == 2);
   CHECK(moves[0].move.x() == 3.0);

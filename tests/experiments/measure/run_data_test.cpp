@@ -1,4 +1,4 @@
-// Reading a run's folder.
+// Reads the folder of a run.
 
 #include "experiments/measure/run_data.hpp"
 
@@ -58,13 +58,13 @@ TEST_CASE("facts come from the scene, and of the packing from the manifest") {
   const std::vector<std::string> large{"grains.seed=5000000001"};
   folder.write("scene.toml", resolve_scene(find_scene("vibrated_box"), large).text);
   CHECK(read_run_data(folder.path()).facts.seed == 5'000'000'001);
-  // a wall that is driven without grains
+  // A wall that is driven without grains.
   write_run(folder, some_steps(), "empty_driven_wall");
   const RunFacts bare = read_run_data(folder.path()).facts;
   CHECK((bare.has_wall && !bare.has_packing));
   CHECK(bare.frequency == 5.0);
   CHECK(bare.f_max > bare.f_min);
-  // of two such walls the first is the one that a step records
+  // Of two driven walls, a step records the first.
   folder.write("scene.toml", resolve_scene(find_scene("empty_driven_wall")).text +
                                  "\n[[wall]]\nname = \"other\"\nnormal = [1, 0, 0]\n"
                                  "offset = -10\nmotion = \"driven\"\nmass = 20\n"

@@ -33,7 +33,7 @@ TEST_CASE("the loop's fits give back the law it was made from") {
 
 TEST_CASE("with noise of 25 % per step the smoothed loop still has the same fits") {
   SyntheticBox box;
-  box.duration = 3.6;  // so many periods that the noise of a stroke averages out
+  box.duration = 3.6;  // enough periods to average out the noise of a stroke
   const RunSummary summary = summarise(synthetic_box(box), facts_of(box));
   CHECK(summary.law.active.amplitude == Approx(box.active_force).epsilon(0.03));
   CHECK(summary.law.active.rate == Approx(box.active_rate).epsilon(0.15));
@@ -53,7 +53,7 @@ TEST_CASE("strokes: against every pair of samples") {
     CHECK(period.rise == rise);
     CHECK(steps[period.peak].wall_x == period.x_peak);
     CHECK(period.x_peak - period.x_before == rise);
-    CHECK(period.yield_load == Approx(SyntheticBox{}.active_force).margin(25.0));  // of two steps
+    CHECK(period.yield_load == Approx(SyntheticBox{}.active_force).margin(25.0));  // two steps
     CHECK(period.net == Approx(-SyntheticBox{}.ratchet).epsilon(1e-9));
     CHECK(period.last - period.first == 1000);
     CHECK(period.x_after == Approx(period.x_before - SyntheticBox{}.ratchet).epsilon(1e-9));
@@ -71,7 +71,7 @@ TEST_CASE("phases: outwards active, inwards passive, at rest under the load jamm
   size_t wrong = 0, judged = 0;
   for (size_t k = 1501; k < steps.size(); ++k) {
     if (std::abs(steps[k].wall_v) > 0.1 * wall.v_peak) {
-      // smoothing blurs half a window on both sides of a jump of the velocity
+      // Smoothing blurs half a window on both sides of a jump of the velocity.
       const bool at_jump = k + 10 >= steps.size() ||
                            std::abs(steps[k + 10].wall_v - steps[k].wall_v) > 0.5 * wall.v_peak;
       if (at_jump) continue;
@@ -85,7 +85,7 @@ TEST_CASE("phases: outwards active, inwards passive, at rest under the load jamm
   CHECK(judged > 2000);
   CHECK(wrong == 0);
   for (size_t k = 0; k < 1499; ++k) REQUIRE(wall.phase[k] == WallPhase::none);
-  // the turning point at the largest x is slow, too, but no jam
+  // At the turning point of largest x the wall is slow too, but not jammed.
   for (const WallPeriod& period : wall.periods) CHECK(wall.phase[period.peak] != WallPhase::jammed);
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("first contraction, compaction and the prefactor of Eq. 3") {
         Approx(0.15 * std::acos(-0.8) / std::numbers::pi).margin(3e-3));
   CHECK(summary.compaction.initial == box.solid_initial);
   CHECK(summary.compaction.reference == Approx(box.solid_initial + box.solid_jump));
-  // by the linear gain, and by the ratchet through -0.4 x
+  // The solid fraction grows by the linear gain, and by the ratchet through the term -0.4 x.
   CHECK(summary.compaction.gain == Approx(box.solid_gain + 0.4 * box.ratchet).epsilon(1e-3));
   CHECK(summary.compaction.relative_gain ==
         Approx(summary.compaction.gain / summary.compaction.reference));
@@ -233,7 +233,7 @@ TEST_CASE("single NaN samples are passed over") {
 
 constexpr double row_step = 1e-3, load_frequency = 5.0;
 
-/// rho grows by `gain` a period and swings within it, which must not enter.
+/// rho grows by `gain` a period; its swing within a period must not count.
 std::vector<StepRecord> growing(double gain, double duration) {
   std::vector<StepRecord> steps;
   for (long k = 1; k <= std::lround(duration / row_step); ++k) {
@@ -267,7 +267,7 @@ TEST_CASE("compaction of a solid fraction that grows and swings, within the two 
   for (StepRecord& step : steps)
     if (step.time > 1.5) step.solid_fraction += 0.01;
   CHECK(measured(steps).rate == Approx(compaction.rate + 0.01 / (0.502 * 1.8)));
-  CHECK(measured(steps).rate_common == Approx(compaction.rate));  // ends at 1 s
+  CHECK(measured(steps).rate_common == Approx(compaction.rate));  // its window ends at 1 s
 }
 
 TEST_CASE("the roll of whole periods needs frames at their ends and the box") {
@@ -283,7 +283,7 @@ TEST_CASE("the roll of whole periods needs frames at their ends and the box") {
   for (int f = 0; f < 2; ++f) {
     frames[f].time = 0.2 + 0.2 * f;
     for (int k = 0; k < 25; ++k) {
-      const double x = 0.25 * (k % 5), z = 0.25 * (k / 5);  // a clockwise turn by a hundredth
+      const double x = 0.25 * (k % 5), z = 0.25 * (k / 5);  // a clockwise turn by 0.01 rad
       Pose pose;
       pose.position = Vec3(x + 0.01 * f * (z - 0.5), 0, z - 0.01 * f * (x - 0.5));
       frames[f].pose.push_back(pose);

@@ -68,7 +68,7 @@ TEST_CASE("steps that missed their tolerance are counted, and more iterations na
   data.facts.solver = "sap";
   CHECK_THAT(trust_words(data.summary()).at(0),
              Catch::Contains("sap solves another law") && !Catch::Contains("--set"));
-  data.facts.tolerance = not_known;  // no tolerance was asked for
+  data.facts.tolerance = not_known;  // the run had no tolerance
   CHECK(data.summary().missed == 0);
   CHECK(
       trust_words(data.summary()) ==
@@ -94,7 +94,7 @@ TEST_CASE("overlaps that can be seen are said with their time and size") {
   data.facts.slop = 0.03;
   CHECK_THAT(trust_words(data.summary()).at(0),
              Catch::EndsWith("correction.slop leaves that much alone: a smaller one mends it."));
-  data.facts.step = 5e-3;  // as of the first step
+  data.facts.step = 5e-3;  // the overlap is then in the first step
   CHECK_THAT(
       trust_words(data.summary()).at(0),
       Catch::EndsWith("radius. Bodies begin inside one another: the scene is to be mended."));
@@ -107,7 +107,7 @@ TEST_CASE("energy that contacts gave is said, and how much that is") {
   data.steps[7].energy_gained = 15.0;
   const RunSummary trust = data.summary();
   CHECK(trust.energy.gained == 15.0);
-  CHECK(trust.energy.moved == 15.0);  // 10 J of works and 5 J of motion
+  CHECK(trust.energy.moved == 15.0);  // 10 J of work and 5 J of kinetic energy
   CHECK(trust_words(trust).at(0) ==
         "Energy +15 J: contacts gave it to the bodies, which no law of contact does (1e+02 % of "
         "the energy that moved). --set solver.name=auto mends it, or more iterations.");

@@ -1,5 +1,5 @@
-// Which periods of a record count, the strokes in them, and the laws of f_g against made-up strokes
-// whose parameters are known. Phases are in run_summary_test.cpp, on whole made-up runs.
+// The periods of a record that count, their strokes, and the laws of f_g, on made-up strokes of
+// known parameters. run_summary_test.cpp tests the phases, on whole made-up runs.
 
 #include "experiments/measure/wall_cycles.hpp"
 
@@ -13,7 +13,7 @@
 namespace ballast {
 namespace {
 
-/// x = size (1 - cos)/2 once a period: from rest at 0 out to `size` and back.
+/// x = size (1 - cos)/2 once a period: moves from rest at 0 to `size` and back.
 std::vector<StepRecord> swinging(double frequency, double duration, double h, double size) {
   std::vector<StepRecord> steps;
   for (long k = 1; k <= std::lround(duration / h); ++k) {
@@ -28,8 +28,8 @@ std::vector<StepRecord> swinging(double frequency, double duration, double h, do
   return steps;
 }
 
-/// A wall that carries a mass of grains which push with a constant force, jammed where it started
-/// until the load falls below that force. f_g follows from Eq. 2.
+/// A wall that carries a mass of grains, which push with a constant force. It is jammed at its
+/// start until the load falls below that force. f_g follows from Eq. 2.
 struct CarriedWall {
   double grain_mass = 200.0, wall_mass = 100.0, carried = 60.0;  ///< [kg]
   double push = 500.0, f_max = 3e5;                              ///< [N]: far above the push
@@ -64,7 +64,7 @@ TEST_CASE("whole periods after the transient count: 2 at 1 Hz, 3 at 5 Hz, 42 at 
   CHECK(count(60.0, 1.0) == 42);
   CHECK(count(5.0, 0.59) == 0);
   CHECK(count(5.0, 0.6) == 1);
-  // periods shorter than a step
+  // The periods are shorter than a step.
   CHECK(count(2e3, 1.0) == 0);
   CHECK(count(1e30, 1.0) == 0);
 }
@@ -88,7 +88,7 @@ TEST_CASE("a carried mass and a constant push are found again, and Eq. 3's const
   CHECK(law.by_load.r2 == Approx(1.0));
   CHECK(law.push == Approx(wall.push).epsilon(1e-6));
   CHECK(law.carried_mass == Approx(wall.carried).epsilon(1e-6));
-  // the stroke of the made-up wall obeys the constant, as f_max is 600 times the push
+  // The stroke of the made-up wall obeys the constant, as f_max is 600 times the push.
   RunFacts facts;
   facts.grain_mass = wall.grain_mass;
   facts.wall_mass = wall.wall_mass;
@@ -103,7 +103,7 @@ TEST_CASE("an exponential in the place is told from a law of the load") {
   CarriedWall wall;
   auto steps = wall.record(1.0);
   const WallCycles moved = wall_cycles(steps, wall.frequency, wall.h, 0.0);
-  // the same motion with forces that follow the place alone
+  // The same motion with forces that depend on the position alone.
   const double rate = 3.0 / moved.periods.front().rise;
   for (StepRecord& s : steps)
     if (s.wall_v > 0.0) s.wall_force = 100.0 * std::exp(rate * s.wall_x);

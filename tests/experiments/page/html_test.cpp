@@ -118,7 +118,7 @@ TEST_CASE("curves stand in the page as numbers, and nothing in them ends their e
   CHECK(panel["x"]["words"] == "t  (s)");
   CHECK(panel["y"] == Json{{"label", ""}, {"words", ""}, {"log", true}, {"min", 1e-3}});
   const Json& curve = panel["curves"][0];
-  CHECK(curve["title"] == "a_b</script>");  // as it is read, no HTML
+  CHECK(curve["title"] == "a_b</script>");  // in plain text, without HTML
   CHECK(curve["ink"] == "blue");
   CHECK(curve["y"] == Json{nullptr, 0.33333});
   CHECK(panel["lines"][0]["value"] == 0.5);
@@ -162,7 +162,7 @@ TEST_CASE("an inlined SVG has ids of its own and nothing that points outside") {
                        !Contains("there"));
   CHECK_THAT(part, Contains("id='fig03-gpPt0'") && Contains("id=\"fig03-b\"") &&
                        Contains("href='#fig03-gpPt0'") && Contains("url(#fig03-b)"));
-  CHECK(inline_svg("<svg><!-- no end", "a", "t") == "<svg role=\"img\">");  // cut, not copied
+  CHECK(inline_svg("<svg><!-- no end", "a", "t") == "<svg role=\"img\">");  // cut off
   CHECK(inline_svg("", "a", "t").empty());
   CHECK_THAT(part, Contains("<title>x &lt; y &amp; t</title>") && Contains("role=\"img\""));
 }
@@ -203,7 +203,7 @@ TEST_CASE("a replay stands in one page with its data, its script and a still pic
                             base64(deflated(std::string(1000, '\1'), 9)) + "</script>"));
   CHECK_THAT(html, Contains("src=\"data:image/png;base64," + base64("\x89PNG") + "\""));
   CHECK_THAT(html, Contains("<figcaption>What is seen.</figcaption>"));
-  // every module is in it, once
+  // The page has every module once.
   for (const char* name :
        {"class Data ", "class Camera ", "class Stage ", "class Plots ", "class Replay "})
     CHECK((html.find(name) != std::string::npos && html.find(name) == html.rfind(name)));

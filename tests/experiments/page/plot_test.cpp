@@ -30,7 +30,7 @@ Figure simple_figure(const page::Text& label = page::marked("*x*  (mm)")) {
                       .curves = {curve({0, 1, 2, 3}, {1, 4, not_known, 2}, "a title")}}}};
 }
 
-/// What stands in a script between two words.
+/// The part of the script between two words.
 std::string between(const std::string& script, const std::string& before,
                     const std::string& after) {
   const size_t begin = script.find(before) + before.size();
@@ -180,12 +180,12 @@ TEST_CASE("axes hold every value, bar and reference line, with room around them"
   panel.x_min = 0.0;
   panel.x_max = 10.0;
   CHECK(ranges(figure) == "0:10 -1.3:7");
-  // what an axis cannot show doesn't stretch it; one value has a factor of two to both sides
+  // values that the axis cannot show do not widen it; one value has a factor of two to both sides
   figure = simple_figure();
   figure.panels[0].curves = {curve({1, 2, 3, not_known}, {-5, 0, 10, 1e9}, "")};
   figure.panels[0].log_y = true;
   CHECK(ranges(figure) == "0.94:3.06 5:20");
-  // a constant, and what differs in digits that no axis writes, has room above and below
+  // a constant, and values that differ only in digits that no axis writes, have room on both sides
   figure.panels[0].log_y = false;
   figure.panels[0].curves = {curve({0, 1}, {5e9, 5e9 + 1.0}, "")};
   CHECK(parsed_number(between(gnuplot_script(figure), "set yrange [", ":")).value() < 4.8e9);

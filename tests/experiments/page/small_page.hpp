@@ -1,5 +1,5 @@
 #pragma once
-// A page with one block of every kind, and hostile words wherever they can come from outside.
+// A page with one block of every kind. Every text that can come from outside is hostile.
 
 #include "experiments/page/page.hpp"
 

@@ -64,7 +64,7 @@ TEST_CASE("what is no UTF-8 and what controls a terminal is replaced") {
   CHECK(clean_utf8("λ ≤ 1 µm\n\t") == "λ ≤ 1 µm\n\t");
   const std::string mark = "\xef\xbf\xbd";
   CHECK(clean_utf8(std::string("a\0b\x1b\x7f", 5)) == "a" + mark + "b" + mark + mark);
-  // cut, overlong, surrogate, beyond Unicode, a lone continuation
+  // Cut off, overlong, a surrogate, beyond Unicode, a lone continuation byte.
   for (const char* broken : {"\xe2\x82", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\x80"})
     CHECK_THAT(clean_utf8(std::string(broken) + "<"), Contains(mark + "<") && !Contains(broken));
 }
@@ -75,7 +75,7 @@ TEST_CASE("a text is cut at its marks, styles kept, blanks beside them dropped")
   CHECK(parts[0] == Text("a"));
   CHECK(parts[1] == marked("*b* c"));
   CHECK(parts[2].empty());
-  CHECK(parts[3] == Text("|v|, d"));  // a single bar is no mark
+  CHECK(parts[3] == Text("|v|, d"));  // a single bar does not cut
   CHECK(parts[4] == Text("e"));
   CHECK(parts_of("|| a", "||").front().empty());
   CHECK(parts_of(Text(), "||") == std::vector<Text>(1));
@@ -148,7 +148,7 @@ TEST_CASE("named paragraphs of text files, lines joined, values filled in") {
 }
 
 TEST_CASE("a table's words are its caption and the cells of its head") {
-  // an entry that the program has
+  // An entry that exists.
   const Table table = words_table("fig4.table");
   CHECK_THAT(plain_words(table.caption), Contains("sample by sample"));
   REQUIRE(table.head.size() == 10);

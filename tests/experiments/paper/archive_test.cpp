@@ -1,4 +1,4 @@
-// The campaign as a dataset: what is in it, that it can be checked, and that a reader draws it.
+// The campaign as a dataset: its content, its checksums, and that a reader can draw its curve.
 
 #include "experiments/paper/sections.hpp"
 #include "platform/atomic_file.hpp"
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of the published rows.
+/// The archive of the published rows, in the folder `output`.
 fs::path archive_in(const fs::path& output) {
   PaperData data(read_campaign({}), output / "no_runs",
                  read_runs_csv(BALLAST_SOURCE_FOLDER "/docs/measured/campaign_runs.csv"));
@@ -37,7 +37,7 @@ TEST_CASE("the archive unpacks to files that agree with their checksums, twice t
   CHECK(run_program("/bin/sh", {"-c", check}, 60.0).succeeded());
   write_whole_file(folder / "curve.py", "another");
   CHECK_FALSE(run_program("/bin/sh", {"-c", check}, 60.0).succeeded());
-  // its rows are a report's
+  // A report can read its rows.
   CHECK(read_runs_csv(folder / "runs.csv").size() >= 251);
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("a packing that is there has its checksum in the archive") {
   write_whole_file(folder.path() / "packings" / ("packing-" + key + ".bin"), "abc");
   write_archive(data, {.packings = folder.path() / "packings", .output = folder.path()});
   const std::string table = read_whole_file(folder.path() / "ballast-paper" / "packings.csv");
-  // FIPS 180-2, appendix B.1
+  // The checksum is from FIPS 180-2, appendix B.1.
   CHECK_THAT(table,
              Catch::Contains("vibrated_box,1,1,ba7816bf8f01cfea414140de5dae2223b00361a396177a"
                              "9cb410ff61f20015ad"));

@@ -1,4 +1,4 @@
-// The article: every number in its prose comes from the report.
+// Every number in the article's prose comes from the report.
 
 #include "experiments/paper/sections.hpp"
 #include "platform/atomic_file.hpp"
@@ -21,7 +21,7 @@ TEST_CASE("a number that the report has not, and a mark that is not closed, are 
 }
 
 TEST_CASE("the published article has the numbers of the published rows") {
-  const TemporaryFolder folder;  // no run is there: the rows alone speak
+  const TemporaryFolder folder;  // holds no run: all numbers come from the rows
   const std::filesystem::path docs = BALLAST_SOURCE_FOLDER "/docs";
   PaperData data(read_campaign({}), folder.path(),
                  read_runs_csv(docs / "measured" / "campaign_runs.csv"));

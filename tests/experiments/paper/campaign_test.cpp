@@ -1,4 +1,4 @@
-// The campaign: everything that is to be varied is there, paired by seed, and says what its stages'
+// The campaign has every variation, its samples are paired by seed, and its stages are as their
 // names say.
 
 #include "experiments/paper/paper_data.hpp"
@@ -21,7 +21,7 @@ const std::vector<PlannedRun>& campaign() {
   return runs;
 }
 
-/// Calls `see` for every run of a stage; returns how many there are.
+/// Calls `see` for every run of the stage. Returns the number of its runs.
 int for_stage(const std::string& stage,
               const std::function<void(const PlannedRun&, const Scene&)>& see) {
   int count = 0;
@@ -44,7 +44,7 @@ TEST_CASE("every stage has whole periods and three samples, or one packing, or t
       INFO(run.name);
       CHECK(scene.step_count() == run.steps);
       CHECK(scene.duration * scene.drive.frequency >= 3.0 - 1e-9);
-      // frames stand at the ends of the periods that are looked at in space
+      // Frames are at the ends of the periods whose motion in space is measured.
       CHECK(scene.record.pose_rate == 20.0);
       keys.insert(run.key);
       std::string setting = run.name;
@@ -60,7 +60,7 @@ TEST_CASE("every stage has whole periods and three samples, or one packing, or t
       else
         CHECK(samples.size() >= 3);
     }
-  // the base run is one run, whatever asks for it
+  // The base run is one run, although several stages use it.
   CHECK(keys.size() < campaign().size());
   for (const char* stage :
        {"motion", "frequency", "force", "gravity", "mass", "box", "reading", "replicas", "tightest",
@@ -86,7 +86,7 @@ TEST_CASE("boxes have grains in proportion to their ground, at one height") {
   CHECK(for_stage("sizes", [&](const PlannedRun& run, const Scene& scene) {
           INFO(run.name);
           const bool is_wide = run.name.find("wide") != std::string::npos;
-          // similar boxes grow in height as well: as the cube root of the grains
+          // Similar boxes also grow in height: as the cube root of the number of grains.
           const double height =
               is_wide ? 1.0 : std::cbrt(scene.grains->count / double(base.grains->count));
           CHECK(per_ground(scene) == Approx(height * per_ground(base)).epsilon(1e-4));

@@ -1,5 +1,5 @@
-// Sections that are rows of the tables of laws and cases, on runs that follow a law: they must find
-// it again.
+// Sections that are rows of the tables of laws and cases must find the law that the made-up runs
+// follow.
 
 #include "platform/text.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"
@@ -9,7 +9,7 @@ using namespace ballast;
 
 TEST_CASE("exponents of samples, and what a case changes") {
   const TemporaryFolder folder;
-  // The rough deposits' walls go out a quarter farther.
+  // The walls of the rough deposits go out a quarter farther.
   PaperLaw law;
   law.prefactor = 0.2;
   law.excess = [](const Scene& scene) { return scene.deposit.friction > 0.7 ? 0.1 : 0.3; };
@@ -27,10 +27,10 @@ TEST_CASE("exponents of samples, and what a case changes") {
     CHECK(std::stod(exponent_words.substr(minus.size())) ==
           Approx(plain_words(row[0]).ends_with("0.8") ? 1.9 : 1.7).margin(0.015));
   }
-  // ln of (L nu^2/g)^(0.05 - 0.15) at 10 Hz: 1 - (0.54 x 100/9.81)^-0.1
+  // The change is ln of (L nu^2/g)^(0.05 - 0.15) at 10 Hz: 1 - (0.54 x 100/9.81)^-0.1.
   REQUIRE(section.tables[2].rows.size() == 4);
   CHECK_THAT(plain_words(section.tables[2].rows[1][2]), Catch::StartsWith("−16 %"));
-  CHECK(section.notes.size() == 1);  // the placed lids are not driven
+  CHECK(section.notes.size() == 1);  // runs with a placed lid are missing
   CHECK(found_of(section, "exponents of ν: lid pressed, μ 0.8, 5 to 60 Hz")
             .starts_with("Δx_max −1.90"));
 }
@@ -43,10 +43,10 @@ TEST_CASE("of fewer than three values or of one sample nothing is made up") {
                                     scene.deposit.friction == 0.4;
                            });
   const PaperSection section = section_named(data, "deposits");
-  REQUIRE(section.tables.size() == 2);  // two frequencies: no exponents
+  REQUIRE(section.tables.size() == 2);  // with two frequencies there are no exponents
   CHECK(section.findings.empty());
   for (const auto& row : section.tables[1].rows) {
-    CHECK(plain_words(row[2]) == "+0 %");  // the same walls, and no interval of one sample
+    CHECK(plain_words(row[2]) == "+0 %");  // the walls are the same; one sample has no interval
     CHECK(plain_words(row[3]) == "–");
   }
   CHECK(plain_words(words_of_change({})) == "–");
@@ -74,13 +74,13 @@ TEST_CASE("the run that all series of Eq. 3 have is one point of their common fi
 
 TEST_CASE("the box's section finds how C goes with L/H") {
   const TemporaryFolder folder;
-  // (L nu^2/g)^(excess/2) with excess -2: C goes with L^-1, the packing's height is the same.
+  // (L nu^2/g)^(excess/2) with excess -2: C is proportional to L^-1, and the height H is constant.
   PaperData data = written(folder.path(), {"box"}, steep_law(-2.0), is_of_two);
   const PaperSection section = section_named(data, "box");
   REQUIRE(section.figures.size() == 2);
   CHECK(section.figures[0].plot.panels[0].curves[0].x.size() == 5);
   CHECK_THAT(found_of(section, "C and the box at 5 Hz"), Catch::Contains("−1.00 ["));
-  // the record's drift of a micrometre a period is one to two percent of the rise here
+  // The record's drift of a micrometre a period is one to two per cent of the rise here.
   CHECK_THAT(found_of(section, "the box at 20 Hz"),
              Catch::StartsWith("exponents of L/H") && Catch::Contains("Δx_max −1.01"));
   CHECK(section.tables[1].rows.size() == 10);
@@ -89,7 +89,7 @@ TEST_CASE("the box's section finds how C goes with L/H") {
 TEST_CASE("the floor of chaos is the replicas' standard deviation") {
   const TemporaryFolder folder;
   PaperLaw law = steep_law(0.0);
-  // (L nu^2/g)^(excess/2): four replicas by 2 % up, four as much down.
+  // (L nu^2/g)^(excess/2) makes four replicas 2 % larger and four 2 % smaller.
   law.excess = [](const Scene& scene) {
     const double base = std::log(scene.box.length * 100.0 / 9.81);
     return 2.0 * std::log(scene.drive.start_noise_seed % 2 == 0 ? 1.02 : 0.98) / base;
@@ -97,7 +97,7 @@ TEST_CASE("the floor of chaos is the replicas' standard deviation") {
   PaperData data =
       written(folder.path(), {"replicas"}, law,
               [](const PlannedRun&, const Scene& scene) { return scene.drive.frequency == 10.0; });
-  // standard deviation of 1 ± 0.02, n - 1: 0.02 sqrt(8/7)
+  // The standard deviation of 1 ± 0.02 with n - 1: 0.02 sqrt(8/7).
   CHECK(found_of(section_named(data, "replicas"), "floor of chaos")
             .starts_with("Δx_max scatters by 2.1 % at 10 Hz (8"));
 }
@@ -112,13 +112,13 @@ TEST_CASE("every other table of cases has its rows") {
   CHECK_THAT(found_of(section_named(data, "sizes"), "length ℓ: similar"),
              Catch::Contains("Δx_max 0.1"));
   CHECK(section_named(data, "laws").tables[0].rows.size() == 2);
-  // the same packings, the same walls: a change of nothing
+  // Both laws have the same packings and the same walls: the change is zero.
   CHECK(found_of(section_named(data, "laws"), "convex instead of exact")
             .starts_with("C +0 % [0, 0]"));
   CHECK(section_named(data, "shapes").findings.size() == 6);
   CHECK(section_named(data, "loads").tables[0].rows.size() == 12);
   CHECK(section_named(data, "sensitivity").tables.size() == 3);
-  // two frequencies of the rule, five of the tight solver, nine of the campaign's
+  // Two frequencies with the rule, five with the tight solver, nine of the campaign.
   const PaperSection tight = section_named(data, "tight");
   CHECK(tight.tables[0].rows.size() == 16);
   CHECK(found_of(tight, "exponents of ν: LMGC90’s rule, 10 and 60 Hz").starts_with("Δx_max −1.8"));
@@ -138,7 +138,7 @@ TEST_CASE("each preparation stands beside the paper's numbers, each window of co
                                     !(is_long && seed == 1 && scene.drive.frequency == 20.0);
                            });
   const PaperSection preparation = section_named(data, "preparation");
-  // the paper, then three pressures by two frictions and the shorter fall
+  // The paper's, then three pressures times two frictions, and the shorter fall.
   REQUIRE(preparation.tables[0].rows.size() == 8);
   CHECK(plain_words(preparation.tables[0].rows[7][1]).starts_with("−1.80"));
   CHECK(found_of(preparation, "a shorter fall, lid placed, μ 0.4").starts_with("of 6 numbers"));
@@ -147,6 +147,6 @@ TEST_CASE("each preparation stands beside the paper's numbers, each window of co
   CHECK(compaction.figures[0].plot.panels[0].curves.size() == 3);
   const std::string rate = found_of(compaction, "compaction rate, 0.5–1.5 s");
   CHECK(rate.starts_with("largest at "));
-  // one packing is not there at 20 Hz: the others are compared
+  // One packing is missing at 20 Hz: the others are compared.
   CHECK(rate.find("p –") == std::string::npos);
 }

@@ -1,4 +1,4 @@
-// One curve through all that is varied, on laws that are known.
+// The one curve through all variations, on known laws.
 
 #include "experiments/paper/laws.hpp"
 
@@ -11,15 +11,15 @@ using namespace ballast;
 
 namespace {
 
-constexpr double scatter = 0.05;  // of ln Delta x_max between samples
+constexpr double scatter = 0.05;  // standard deviation of ln Delta x_max between samples
 
 struct Law {
   double prefactor, exponent, bend;  ///< of ln Delta x_max in ln X: offset, slope, half curvature
-  double extra_force = 0.0;          ///< a further exponent of f_max: no grouping
-  double other_gravity = 0.0;        ///< of ln Delta x_max where g is not the Earth's: an offset
+  double extra_force = 0.0;          ///< added to the exponent of f_max, which breaks the grouping
+  double other_gravity = 0.0;        ///< added to ln Delta x_max where g is not the Earth's
 };
 
-/// Three samples of one setting; the packings have offsets of their own.
+/// Three samples of one setting. Each packing has an offset of its own.
 Group group_of(double nu, double force, double g, double wall, const Law& law, Random& random,
                std::vector<RunRow>& rows) {
   Group group;
@@ -45,7 +45,7 @@ Group group_of(double nu, double force, double g, double wall, const Law& law, R
 
 OneCurve curve_of_law(const Law& law) {
   Random random(7);
-  static std::vector<RunRow> rows;  // what the curve's points refer to
+  static std::vector<RunRow> rows;  // the rows that the curve's points refer to
   rows.clear();
   rows.reserve(60);
   std::vector<Groups> groups(4);
@@ -71,14 +71,14 @@ TEST_CASE("a curve that bends is one curve, no line, and its base counts once") 
   CHECK(all.third.p > 0.01);
   CHECK(all.offsets.p > 0.01);
   CHECK(all.line_misfit.ratio > all.curve_misfit.ratio);
-  // packings differ by 10 %, which is not in the scatter from run to run
+  // Packings differ by 10 %, which does not enter the scatter from run to run.
   CHECK(all.between.deviation > 0.08);
   CHECK(all.paired.deviation == Approx(scatter).epsilon(0.35));
   CHECK(all.paired.degrees_of_freedom == 15 * 2);
 }
 
 TEST_CASE("a law that Eq. 3 does not group is seen") {
-  // an exponent of f_max that is not Eq. 3's turns its series about the base, which is no offset
+  // An exponent of f_max that is not Eq. 3's turns its series about the base and is no offset.
   CHECK(curve_of_law({-3.6, 0.85, 0.0, 0.8}).curve_misfit.p < 1e-3);
   const OneCurve shifted = curve_of_law({-3.6, 0.85, 0.0, 0.0, 0.4});
   CHECK(shifted.offsets.p < 1e-3);

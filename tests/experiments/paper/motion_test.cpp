@@ -1,4 +1,4 @@
-// Stress and forces against answers that can be written down.
+// Stress and forces against closed-form answers.
 
 #include "experiments/paper/motion.hpp"
 
@@ -11,7 +11,7 @@ using namespace ballast;
 
 namespace {
 
-/// Grains as mass points at these places; fields look at nothing else of them.
+/// Grains as mass points at these places; the fields use no other property of them.
 MechanicalSystem points_at(const std::vector<Vec3>& places, MotionState& state) {
   MechanicalSystem system;
   system.grain_count = static_cast<int>(places.size());
@@ -34,7 +34,7 @@ void add_box(MechanicalSystem& system, MotionState& state, const Vec3& size) {
   const std::vector<Vec3> places{Vec3::Zero(),         Vec3(0, 0, size.z()), Vec3::Zero(),
                                  Vec3(size.x(), 0, 0), Vec3::Zero(),         Vec3(0, size.y(), 0)};
   for (const Vec3& place : places) {
-    system.bodies.emplace_back();  // without a shape it counts as a wall
+    system.bodies.emplace_back();  // a body without a shape counts as a wall
     Pose pose;
     pose.position = place;
     state.pose.push_back(pose);
@@ -66,7 +66,7 @@ TEST_CASE("points of one pair are one contact with the sum of their forces") {
   const std::vector<Vec3> impulses{Vec3(1, 0.5, 0), Vec3(3, 0, 0), Vec3::Zero(), Vec3(2, 0, 0)};
   const MechanicalSystem none;
   const auto pairs = state_of(none, {}, contacts, impulses, 0.5).pairs();
-  REQUIRE(pairs.size() == 2);  // the open one is left out
+  REQUIRE(pairs.size() == 2);  // the contact without force is left out
   CHECK(pairs[0].force.isApprox(Vec3(8, 1, 0)));
   CHECK(pairs[0].normal_force() == Approx(8.0));
   CHECK(pairs[0].position.isApprox(Vec3(0, 0, 0.75)));
@@ -85,7 +85,7 @@ TEST_CASE("stress of a two-grain chain between two walls") {
   const std::vector<Vec3> impulses{Vec3(force * h, 0, 0), Vec3(force * h, 0, 0),
                                    Vec3(-force * h, 0, 0)};
   const Mat3 stress = state_of(system, state, contacts, impulses, h).stress();
-  // a force of 10 N through the section of 4 m^2 everywhere
+  // A force of 10 N acts through every section of 4 m^2.
   CHECK(stress(0, 0) == Approx(2.5));
   CHECK((stress - 2.5 * Vec3::UnitX() * Vec3::UnitX().transpose()).norm() < 1e-12);
   CHECK(major_inclination(stress) == Approx(0.0).margin(1e-9));

@@ -1,4 +1,4 @@
-// Runs that are there, beside runs of which a row alone is known; and what rows say together.
+// Stored runs beside runs of which only a row is known, and statistics over rows.
 
 #include "experiments/paper/paper_data.hpp"
 
@@ -26,14 +26,14 @@ PaperData with_rows(const TemporaryFolder& folder, const CampaignSettings& setti
   return PaperData(read_campaign(settings), folder.path(), rows);
 }
 
-/// The rows of frequency; other stages have some of its runs too.
+/// The rows of the stage frequency. Other stages share some of its runs.
 std::vector<RunRow> frequency_rows(const TemporaryFolder& folder) {
   std::vector<RunRow> rows = written(folder.path(), {"frequency"}, {}, is_first_sample).rows();
   std::erase_if(rows, [](const RunRow& row) { return row.stage != "frequency"; });
   return rows;
 }
 
-/// A row for each rise, of seeds from 1 on.
+/// A group with a row for each rise, with seeds from 1 on.
 Group group_of(double value, const std::vector<double>& rises, std::vector<RunRow>& rows) {
   Group group{value, "", {}};
   for (size_t k = 0; k < rises.size(); ++k) {
@@ -91,7 +91,7 @@ TEST_CASE("a run whose row was given and that was made here tells whether both a
   PaperData other = with_rows(here, {}, rows);
   CHECK(other.repeats() == std::pair(2, 1));
   CHECK(other.known_by_row() == 0);
-  // a record without poses is measured, and that is said
+  // A record without poses is measured, with a notice.
   CHECK(other.notices().size() == 2);
   CHECK_THAT(other.notices().front(), Catch::Contains("No poses") && Catch::Contains("record.h5"));
 }
@@ -139,7 +139,7 @@ TEST_CASE("targets are sections and stages; an unknown one is refused with what 
 TEST_CASE("what is compared between two groups compares every sample with itself") {
   std::vector<RunRow> rows;
   rows.reserve(20);
-  // ten times the displacement in the second sample: no error of the exponent
+  // The second sample has ten times the displacement, which adds no error to the exponent.
   const Groups groups{group_of(5.0, {4.0, 40.0, 7.0}, rows), group_of(10.0, {1.0, 10.0}, rows)};
   const auto exponents = exponents_of_samples(groups, "frequency", "rise", 2);
   REQUIRE(exponents.size() == 2);
@@ -156,7 +156,7 @@ TEST_CASE("what is compared between two groups compares every sample with itself
 TEST_CASE("what a packing has in common is in the scatter between samples, not from run to run") {
   std::vector<RunRow> rows;
   rows.reserve(20);
-  // two packings that always differ by a factor e^2, and runs that miss that by e^0.2
+  // Two packings that always differ by a factor e^2; the runs deviate from it by e^0.2.
   const Groups groups{group_of(1.0, {1.0, std::exp(2.2)}, rows),
                       group_of(2.0, {std::exp(5.0), std::exp(6.8)}, rows),
                       group_of(3.0, {std::exp(7.0)}, rows)};
@@ -165,7 +165,7 @@ TEST_CASE("what a packing has in common is in the scatter between samples, not f
   CHECK(between.degrees_of_freedom == 2);
   CHECK(between.deviation == Approx(std::sqrt(0.5 * (2.2 * 2.2 / 2.0 + 1.8 * 1.8 / 2.0))));
   CHECK(paired.degrees_of_freedom == 1);
-  CHECK(paired.deviation == Approx(0.2));  // differences of 2.2 and 1.8, made of four runs
+  CHECK(paired.deviation == Approx(0.2));  // differences of 2.2 and 1.8, from four runs
   CHECK(scatter_paired({groups[0]}, "rise").degrees_of_freedom == 0);
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("runs.csv has names, units and a row a run, which is read back column 
   };
   CHECK(lines[2][0] == "made");
   CHECK(lines[1][column("rise")] == "m");
-  CHECK(lines[3][column("roll_top")].empty());  // what is not known
+  CHECK(lines[3][column("roll_top")].empty());  // unknown
   CHECK(lines[3][column("seed")] == "5000000001");
 
   const std::vector<RunRow> rows = read_runs_csv(file);
@@ -260,7 +260,7 @@ TEST_CASE("a table that is no runs.csv is refused by its file, line and column")
   CHECK(refusal("name,stage,key,record,solver,periods\n" + units + "a,b,c,d,e,1e300\n") == "read");
   CHECK_THAT(refusal(""), Catch::Contains("runs.csv") && Catch::Contains("empty"));
   CHECK_THAT(refusal("name,rise\n"), Catch::Contains("runs.csv:1") && Catch::Contains("begins"));
-  // of an earlier version, with a column that is no more
+  // A file of an earlier version, with a column that no longer exists.
   CHECK(refusal("name,stage,key,record,solver,layer1\n" + units + "a,b,c,d,e,1\n") == "read");
   CHECK_THAT(refusal(head), Catch::Contains("units"));
   CHECK_THAT(refusal(head + units + "a,b,c,d,e,much\n"),

@@ -1,5 +1,5 @@
-// `ballast paper`, stopped by its time limit and killed with -9 at random moments: the same
-// records, stored states and report as an undisturbed one.
+// `ballast paper`, stopped by its time limit and killed with -9 at random moments, ends with the
+// records, stored states and report of an undisturbed one.
 
 #include <map>
 #include <sstream>
@@ -19,8 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One sample of a few grains: 5000 steps at 5 Hz, whose whole states are kept at
-/// record.state_rate.
+/// One sample of a few grains: 5000 steps at 5 Hz. Whole states are stored at record.state_rate.
 CampaignSettings small_campaign() {
   return {.plan = {},
           .scene = "vibrated_box_small",
@@ -39,7 +38,7 @@ std::vector<std::string> fig3(const fs::path& results, std::vector<std::string> 
   return words;
 }
 
-/// Every stored state by its file's name: poses and the impulses from which a solver would start.
+/// The stored states by file name: poses, and the impulses from which a solver would start.
 std::map<std::string, std::string> stored_states(const fs::path& run) {
   std::map<std::string, std::string> states;
   for (const fs::directory_entry& entry : fs::directory_iterator(RunFolder(run).states())) {
@@ -52,7 +51,7 @@ std::map<std::string, std::string> stored_states(const fs::path& run) {
   return states;
 }
 
-/// The report's words and tables; what it says of the time a run took may differ.
+/// The report's words and tables without the line with the time of the runs, which may differ.
 std::string report_of(const fs::path& results) {
   std::istringstream text(read_whole_file(results / "report" / "README.md"));
   std::string kept;
@@ -82,8 +81,8 @@ TEST_CASE(
   CHECK(fs::exists(killed / "report" / "README.md"));
   Random random(11);
   int kills = 0;
-  // The first kills are early and then later and later: other programs may have made the
-  // undisturbed run many times as long as it is, or the killed ones.
+  // The first kills are early, the next ones later and later: other load on the machine may have
+  // slowed down the undisturbed run, or slow down the killed ones, many times.
   double longest = 0.03;
   while (run_and_kill(random.uniform(0.01, longest) * undisturbed, fig3(killed), log) != 0) {
     REQUIRE(++kills < 100);

@@ -1,5 +1,5 @@
 // From folders of finished runs to the report: records with known exponents, and partial data,
-// which are said and never an error.
+// which the report states and which are never an error.
 
 #include <fstream>
 
@@ -25,7 +25,7 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
        {"Δx_max ~ ν⁻²", "v_max ~ ν⁻¹", "Δx_max ~ f_max⁻¹", "Δx_max ~ g²", "Δx_max ~ m/(m + m_w)",
         "one line through all series", "maximum at ν_c ~ 10 Hz; both parameters free"})
     CHECK_THAT(judged(sections, claim), Catch::StartsWith("agrees: "));
-  // one sample has no interval
+  // One sample has no interval.
   CHECK_THAT(judged(sections, "Δρ_max/ρ₀ ~ 0.0025"), Catch::StartsWith("reported: "));
   CHECK_THAT(judged(sections, "Δx_max ~ ν⁻²"), Catch::StartsWith("agrees: −2.0"));
   CHECK_THAT(judged(sections, "Δx_max ~ g²"), Catch::StartsWith("agrees: 2.0"));
@@ -72,7 +72,7 @@ TEST_CASE("partial data give partial figures and a loud note; no data give a rep
   CHECK_THAT(text("paper.html"), Catch::Contains("PARTIAL: 6 of 27 runs of frequency"));
   CHECK_THAT(text("data/fig09.csv"),
              Catch::StartsWith("panel,y_label,curve,x_label,x,y,y_error,y_low\n"));
-  // what was written is read again, and says the same
+  // The written rows can be read again, all of them.
   const std::vector<RunRow> rows = read_runs_csv(folder.path() / "report/data/runs.csv");
   CHECK(rows.size() == data.rows().size());
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Folders of finished runs whose walls follow Eq. 3, or another law that is known: what the
-// sections must find again.
+// Folders of finished runs whose walls follow Eq. 3, or another known law, which the sections must
+// find.
 
 #include <cmath>
 #include <filesystem>
@@ -19,17 +19,17 @@
 
 namespace ballast {
 
-/// Delta x_max = C m/(m + m_w) m g/f_max g/nu^2 (L nu^2/g)^(excess/2), L the box's length: what
-/// rigid grains may do. Exponents are -2 + excess of nu and 2 - excess/2 of g at constant f_max; of
-/// v_max -1 + excess of nu.
+/// Delta x_max = C m/(m + m_w) m g/f_max g/nu^2 (L nu^2/g)^(excess/2), L the box's length: a motion
+/// that rigid grains may have. At constant f_max the exponents of Delta x_max are -2 + excess of nu
+/// and 2 - excess/2 of g; that of v_max is -1 + excess of nu.
 struct PaperLaw {
   double prefactor = 0.02;
   std::function<double(const Scene&)> excess = [](const Scene&) { return 0.0; };
   double offset = 0.0, slope = 1.0;  ///< f_g = offset [N] + slope f(t)
 };
 
-/// A wall that goes out by the law in every period and back, jammed for half of it; solid fraction
-/// with a gain per period as Eq. 5 has it. The grains weigh 200 kg.
+/// A wall that goes out by the law in every period and back, and is jammed for half of it. The
+/// solid fraction gains per period as in Eq. 5. The grains weigh 200 kg.
 inline std::vector<StepRecord> scaled_record(const Scene& scene, const PaperLaw& law) {
   const double nu = scene.drive.frequency, g = scene.gravity.norm(),
                wall = scene.drive.wall_mass_over_grains, h = scene.step, excess = law.excess(scene);
@@ -50,14 +50,14 @@ inline std::vector<StepRecord> scaled_record(const Scene& scene, const PaperLaw&
                    : 0.0;
     s.wall_force = law.offset + law.slope * s.load;
     s.solid_fraction = s.time < 0.2 ? 0.50 + 0.1 * s.time : 0.52 + gain * nu * (s.time - 0.2);
-    s.error_rms = 1e-6 * (1.0 + scene.box.length);  // another box, another record
+    s.error_rms = 1e-6 * (1.0 + scene.box.length);  // gives every box another record
     s.seconds_solve = 1e-3;
     steps.push_back(s);
   }
   return steps;
 }
 
-/// As a finished run leaves its folder, as far as the report looks at it.
+/// Writes the folder of a finished run, with all that the report reads.
 inline void write_run(const std::filesystem::path& results, const PlannedRun& run,
                       const PaperLaw& law = {}) {
   const std::filesystem::path folder = run_folder(results, run);
@@ -80,7 +80,7 @@ inline void write_run(const std::filesystem::path& results, const PlannedRun& ru
   manifest.write(folder / "manifest.json");
 }
 
-/// The built-in campaign's runs of these stages, those that `is_wanted`, made by a law.
+/// The runs of these stages of the built-in campaign for which `is_wanted` holds, made by a law.
 inline PaperData written(
     const std::filesystem::path& results, const std::vector<std::string>& stages,
     const PaperLaw& law = {},
@@ -94,7 +94,7 @@ inline PaperData written(
   return PaperData(campaign, results);
 }
 
-/// Verdict and what was measured of the first claim that the paper says in these plain words.
+/// The verdict and the measured value of the first claim with these plain words in the paper.
 inline std::string judged(const std::vector<PaperSection>& sections, const std::string& paper) {
   for (const PaperSection& section : sections)
     for (const std::vector<page::Text>& row : section.claims)
@@ -103,7 +103,7 @@ inline std::string judged(const std::vector<PaperSection>& sections, const std::
   return {};
 }
 
-/// What was found, in plain words, of the finding whose first part begins so.
+/// The result, in plain words, of the finding whose first part begins with `what`.
 inline std::string found_of(const PaperSection& section, const std::string& what) {
   for (const std::vector<page::Text>& row : section.findings)
     if (plain_words(row[0]).starts_with(what)) return plain_words(row[1]);

@@ -81,18 +81,18 @@ TEST_CASE("the one rule of the verdicts, case by case") {
   const PaperRange square = PaperRange::exponent(-2.0), bound = PaperRange::at_most(0.26);
   using enum Agreement;
   const Judged cases[] = {
-      // in the range and sharp agrees; wide, of a law that fails, or of a part: partly
+      // in the range: sharp agrees; a wide interval, a failing law or missing runs: partly
       {square, -1.93, 0.05, agrees},
       {square, -1.93, 0.5, partly},
       {square, -1.93, 0.05, partly, 1e-3},
       {square, -1.93, 0.05, agrees, not_known},
       {square, -1.93, 0.02, partly, 0.5, false},
-      // scatter is not rewarded: a value far off whose interval reaches the range is open
+      // Scatter is not rewarded: a value far off whose interval reaches the range is undecided.
       {square, -1.75, 0.01, partly},
       {square, -1.5, 0.1, differs},
       {square, -1.5, 0.6, reported},
       {square, -1.93, not_known, reported},
-      // a bound is not widened
+      // A bound is not widened.
       {bound, 0.2, 0.05, agrees},
       {bound, 0.2, 0.1, partly},
       {bound, 0.3, 0.01, differs},

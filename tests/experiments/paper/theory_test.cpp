@@ -1,4 +1,4 @@
-// What C goes with, on rows and runs that follow a law: it must be found again.
+// The dependence of C in theory, on rows and runs that follow a law, which must be found.
 
 #include "experiments/paper/laws.hpp"
 #include "platform/text.hpp"
@@ -9,7 +9,7 @@ using namespace ballast;
 
 namespace {
 
-/// A row of a run of which only some measures are known.
+/// The row of a run of which only some measures are known.
 RunRow row_of(const std::string& stage, const std::string& setting, int seed) {
   RunRow row;
   row.stage = stage;
@@ -27,7 +27,7 @@ TEST_CASE("C against its theory: the force that the grains push with gives it, p
   law.offset = 200.0;
   law.slope = 0.4;
   PaperData data = written(folder.path(), {"frequency", "slowest", "mass", "box"}, law, is_of_two);
-  // F = 200 N/(1 - 0.4), M = m_w 0.4/(1 - 0.4), 200 kg of grains
+  // F = 200 N/(1 - 0.4), M = m_w 0.4/(1 - 0.4), 200 kg of grains.
   const auto theory = [](double wall) {
     const double force = 200.0 / 0.6 / (200.0 * 9.81), carried = wall * 0.4 / 0.6;
     return 9.0 / (4.0 * M_PI * M_PI) * force * force * (1.0 + wall) / (wall + carried);
@@ -37,7 +37,7 @@ TEST_CASE("C against its theory: the force that the grains push with gives it, p
           Approx(theory((*row)["wall_mass_over_grains"])).epsilon(0.02));
   const PaperSection section = section_named(data, "theory");
   REQUIRE(section.figures.size() == 1);
-  // ten frequencies, three masses of the wall beside the one that they share, five boxes twice
+  // Ten frequencies, three wall masses beside the one that they share, five boxes twice.
   size_t points = 0;
   for (const std::vector<page::Text>& row : section.tables[0].rows) {
     points += std::stoul(plain_words(row[2]));
@@ -57,7 +57,7 @@ TEST_CASE("what C goes with: the exponents that rows were made with are found ag
       row.stage = "frequency";
       row.name = printed("frequency-%d-grains.seed=%d", setting, seed);
       row.key = printed("%d-%d", setting, seed);
-      // force, mass and X vary apart from each other; seeds scatter by one per cent
+      // Force, mass and X vary independently; seeds scatter by one per cent.
       const double force = 0.1 * (1 + setting % 4), mass = 1.0 + 0.5 * (setting / 4);
       row["seed"] = seed;
       row["push_over_weight"] = force;

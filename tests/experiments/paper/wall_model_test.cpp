@@ -1,4 +1,4 @@
-// The wall's model (Eq. 2) against motions that can be written down.
+// The model of the wall (Eq. 2) against closed-form motions.
 
 #include "experiments/paper/wall_model.hpp"
 

@@ -1,4 +1,4 @@
-// Killed with -9 at random moments, a plan ends with the bits of an undisturbed one.
+// A plan that is killed with -9 at random moments ends with the bits of an undisturbed one.
 
 #include "experiments/plans/plan.hpp"
 #include "platform/clock.hpp"
@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Runs the plan, and kills the program after `seconds`. Its exit code, or -1 when it was killed.
+/// Runs the plan and kills the program after `seconds`. Returns its exit code, or -1 if killed.
 int plan_for(double seconds, const fs::path& plan, const fs::path& results) {
   return run_and_kill(seconds, {"plan", plan.string(), "--jobs", "2", "--output", results.string()},
                       results.string() + ".log");
@@ -38,8 +38,8 @@ TEST_CASE("a plan killed with -9 twenty times at random ends with the same bits"
   const std::vector<std::string> bits = bits_of(plan, whole);
   REQUIRE(bits[0] != bits[1]);
 
-  // one after another until there were twenty deaths, spread over deposits and drives, on a fast
-  // machine and on a slow one
+  // One plan after another until there were twenty kills, of them five in deposits and five in
+  // drives, on a fast machine and on a slow one.
   Random random(20);
   int kills = 0, in_deposit = 0, in_drive = 0, elsewhere = 0;
   for (int tries = 0; kills < 20 || in_deposit < 5 || in_drive < 5; ++tries) {
@@ -68,7 +68,7 @@ TEST_CASE("a plan killed with -9 twenty times at random ends with the same bits"
 
 TEST_CASE("children die with a plan that is killed") {
   const TemporaryFolder folder;
-  // long: whoever survived would still be running
+  // The run is long: a surviving child would still be running.
   const fs::path file = folder.write(
       "plan.toml",
       "scene = \"vibrated_box_small\"\n[[run]]\nname = \"long\"\nset = [\"scene.duration=100\"]\n");
@@ -83,7 +83,7 @@ TEST_CASE("children die with a plan that is killed") {
     while (!fs::exists(log) && watch.seconds() < 60.0 && !planned->has_ended()) usleep(2000);
     REQUIRE(fs::exists(log));
   }
-  // the folder can be had again: nobody holds its lock
+  // The folder can be used again: no process holds its lock.
   const auto next = start_program(
       BALLAST_PROGRAM,
       {"run", run.scene, "--set", run.overrides[0], "--output", run_folder(results, run).string(),

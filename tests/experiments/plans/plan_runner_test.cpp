@@ -1,4 +1,4 @@
-// The engine: each run once, in any number of processes, whatever becomes of the others.
+// The engine makes each run once, in any number of processes, whatever happens to the others.
 
 #include <signal.h>
 #include <unistd.h>
@@ -45,7 +45,7 @@ TEST_CASE("two processes give the bits of one, and what is finished is not run a
   REQUIRE(second.succeeded());
   CHECK(bits_of(plan, one) == bits_of(plan, two));
   for (const PlannedRun& run : plan.runs) CHECK(is_finished(one, run));
-  CHECK(entries(one / "packings") == 2);  // shared by two runs each
+  CHECK(entries(one / "packings") == 2);  // each is shared by two runs
   CHECK_FALSE(fs::exists(one / "plan.lock"));
 
   const fs::path manifest = run_folder(one, plan.runs[0]) / "manifest.json";
@@ -91,7 +91,7 @@ set = ["drive.frequency=30"]
   CHECK_THAT(read_whole_file(results / "index.csv"),
              Catch::Contains("restless," + restless.key + ",failed"));
 
-  fs::remove_all(run_folder(results, taken));  // mended: tried again
+  fs::remove_all(run_folder(results, taken));  // mended: the run is tried again
   const ProgramResult again = run_plan_file(file, results, {"--only", "taken"});
   CHECK(again.succeeded());
   CHECK(is_finished(results, taken));
@@ -113,7 +113,7 @@ TEST_CASE("a plan's lines for a shell give the bits of the engine, part by part 
     return ballast_in_shell("\"$@\" | " + filter + " | xargs -P 2 -d '\\n' -n 1 sh -c", more)
         .succeeded();
   };
-  // Two runs of one packing: one line deposits it, the other waits.
+  // For two runs with the same packing, one line deposits it and the other waits.
   CHECK(run_lines("grep -v deposit-only", {"--only", "*seed=1"}));
   CHECK(lines_left() == 3);
   CHECK(run_lines("tac", {}));
@@ -132,7 +132,7 @@ TEST_CASE("the time limit stops a plan with checkpoints, and the same command go
   while (result.status == static_cast<int>(ExitCode::time_limit)) {
     REQUIRE(++stops < 200);
     check_failure(result, ExitCode::time_limit, {"the same command goes on"});
-    seconds *= 1.1;  // under sanitizers, beside other work: it ends all the same
+    seconds *= 1.1;  // so that it ends under sanitizers and beside other work too
     result = run_plan_file(file, results, {"--max-seconds", std::to_string(seconds)});
   }
   CHECK(stops > 0);

@@ -1,4 +1,4 @@
-// What a plan's file says, what is wrong with it, and by what its runs are known.
+// The content of a plan's file, its mistakes, and the keys of its runs.
 
 #include "experiments/plans/plan.hpp"
 #include "experiments/box/vibrated_box.hpp"
@@ -107,7 +107,7 @@ TEST_CASE("what is wrong with a plan is said with file, key and value") {
       {grid + "vary = 3\n", "grid.0.vary = 3"},
       {grid + "vary.\"drive.frequency\" = []\n", "no values"},
       {grid + "vary.\"drive.frequence\" = [1]\n", "drive.frequence = 1"},
-      // \r within quotes is a key's letter: control characters stay out of the message
+      // \r within quotes is a letter of the key. The message leaves control characters out.
       {"scene = \"incline\"\n[[grid]]\nname = \"nu\"\nvary.\"contact.\\riction\" = [0.1]\n",
        "contact.?iction"},
       {varied, "no condition"},
@@ -126,7 +126,7 @@ TEST_CASE("a plan that is too much to look at is refused before its runs are") {
   };
   const std::string seeds = "vary.\"grains.seed\" = [" + numbers + "]\n";
   CHECK_THAT(error_of(head + grid("a", numbers) + seeds), Catch::Contains("more than 10000 runs"));
-  // two grids that are small enough each
+  // Each of the two grids alone is small enough.
   const std::string half =
       "vary.\"grains.seed\" = [" + numbers.substr(0, numbers.find(", 61")) + "]\n";
   CHECK_THAT(error_of(head + grid("a", numbers) + half + grid("b", numbers) + half),
@@ -138,13 +138,13 @@ TEST_CASE("a plan that is too much to look at is refused before its runs are") {
 TEST_CASE("a run is known by what it computes") {
   const std::string key = key_with({});
   CHECK(key.size() == 16);
-  CHECK(key_with({"drive.frequency=20"}) == key);  // what the scene says anyway
+  CHECK(key_with({"drive.frequency=20"}) == key);  // the value that the scene has anyway
   CHECK(key_with({"drive.frequency=20.0"}) == key);
   CHECK(key_with({"drive.frequency=7", "drive.frequency=20"}) == key);
   for (const char* other : {"drive.frequency=21", "solver.name=pgs", "solver.tolerance=1e-4"})
     CHECK(key_with({other}) != key);
   CHECK(planned_run("another", "vibrated_box_small", {}).key == key);
-  // the same words, another mesh
+  // The words are the same, the mesh is another.
   const TemporaryFolder folder;
   const fs::path mesh = folder.path() / "grain.stl";
   const std::vector<std::string> meshes{"grains.meshes=[\"" + mesh.string() + "\"]"};
@@ -159,9 +159,9 @@ TEST_CASE("what a run amounts to: its packing, its steps, and its work") {
   const std::vector<std::string> overrides{"scene.duration=0.06", "grains.count=20"};
   const PlannedRun box = planned_run("a", "vibrated_box_small", overrides);
   CHECK(box.packing == packing_key(read_scene(find_scene(box.scene), overrides)));
-  CHECK(box.steps == 300);  // 0.06 s of 2e-4 s
+  CHECK(box.steps == 300);  // 0.06 s in steps of 2e-4 s
   CHECK(box.work == 20.0 * 300.0);
-  // a third of the longest rain and the lid's 0.1 s at 5e-4 s, the rest's 0.05 s at 2e-4 s
+  // A third of the longest rain and the lid's 0.1 s at 5e-4 s a step, the last 0.05 s at 2e-4 s.
   CHECK(box.packing_work == Approx(20.0 * ((1.0 + 0.1) / 5e-4 + 0.05 / 2e-4)));
   const PlannedRun body = planned_run("a", "incline", {});
   CHECK(body.packing.empty());

@@ -1,5 +1,5 @@
 #pragma once
-// Plans that take a second: the small box, briefly driven.
+// Plans that take a second: the small box, driven briefly.
 
 #include <string>
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace ballast {
 
-/// Two packings, two frequencies each. Checkpoints often, so that little is lost whenever it is
-/// killed.
+/// Two packings with two frequencies each. It writes checkpoints often, so that a kill loses
+/// little.
 inline const char* small_plan = R"(
 name = "small"
 scene = "vibrated_box_small"
@@ -29,7 +29,7 @@ inline bool is_finished(const std::filesystem::path& results, const PlannedRun& 
   return RunFolder(run_folder(results, run)).is_finished(run.key);
 }
 
-/// The bits of every run of a plan.
+/// The bits of every run of the plan.
 inline std::vector<std::string> bits_of(const Plan& plan, const std::filesystem::path& results) {
   std::vector<std::string> bits;
   for (const PlannedRun& run : plan.runs) {

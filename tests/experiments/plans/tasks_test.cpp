@@ -1,4 +1,4 @@
-// What a plan has to do, how far it is, and what its folder says about itself.
+// The tasks of a plan, its progress, and the state that its folder shows.
 
 #include "experiments/plans/plan_runner.hpp"
 #include "platform/row_log.hpp"
@@ -15,7 +15,7 @@ PlannedRun run(const std::string& key, const std::string& packing, double work) 
   return {"run " + key, "incline", {"a.b=1"}, key, packing, 40, work, 10 * work};
 }
 
-/// A folder as a run leaves it, `left` steps before its end.
+/// A folder as a run leaves it `left` steps before its end.
 void put_run(const fs::path& results, const std::string& key, double left) {
   const RunFolder folder(results / "runs" / key);
   Manifest manifest("incline", {}, key);
@@ -27,7 +27,7 @@ void put_run(const fs::path& results, const std::string& key, double left) {
   for (const char* name : {"steps.csv", "record.h5"}) put_bytes(folder.path() / name, "");
 }
 
-/// The log of a run with so many steps.
+/// The log of a run with this number of steps.
 void put_steps(const fs::path& folder, int steps) {
   fs::create_directories(folder / "log");
   RowWriter log(RunFolder(folder).steps_log(), RowLogHeader{"columns", 7, 3});
@@ -59,11 +59,11 @@ TEST_CASE("how far a plan is: by the work done, the steps in the logs included")
   put_steps(begun.folder, 30);
   std::vector<Task> tasks{deposit, begun, waiting};
   const double before = work_done(tasks);
-  // nothing gained yet: nobody knows how long it takes
+  // Without progress the remaining time is unknown.
   CHECK(plan_progress(tasks, before, 100.0) == " 37 %  0 of 2 runs, 1 running, 1 depositing");
   tasks[0].state = tasks[1].state = TaskState::finished;
   tasks[2].state = TaskState::failed;
-  // 25 of the 125 that were to do took 200 s: the other 100 take 800 s
+  // 25 of the 125 units of work left at the start took 200 s: the other 100 take 800 s.
   CHECK(plan_progress(tasks, before, 200.0) ==
         " 50 %  1 of 2 runs, 0 running, 1 FAILED  " + duration_text(800.0) + " left");
 }
@@ -84,7 +84,7 @@ TEST_CASE("packings come first, both longest first, and each run waits for its o
                                                           {"run c", 1},
                                                           {"run a", 1}});
   CHECK((!tasks[1].is_run() && tasks[2].is_run()));
-  // what the program is asked to do
+  // The arguments with which the program is called.
   using Words = std::vector<std::string>;
   const std::string packings = (folder.path() / "packings").string();
   CHECK(tasks[1].arguments ==

@@ -22,7 +22,7 @@ Checkpoint sample_checkpoint(int contacts) {
   return checkpoint;
 }
 
-/// The file as its bytes are described, with any numbers at its end.
+/// Writes the file by the description of its bytes, with these numbers at its end.
 void write_bytes(const fs::path& file, const Checkpoint& checkpoint,
                  const std::vector<double>& numbers) {
   Packer packer;
@@ -54,14 +54,14 @@ void write_bytes(const fs::path& file, const Checkpoint& checkpoint,
 }  // namespace
 
 TEST_CASE("a checkpoint comes back to the last bit, and its bytes are these") {
-  // packings that were kept stay useful
+  // The format is fixed, so that stored packings stay useful.
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "checkpoint.bin";
   Checkpoint drive = sample_checkpoint(4), packing = sample_checkpoint(40);
   packing.phase = "packing";
   packing.deposit = {0.25, -0.0, 1e-310, std::numeric_limits<double>::infinity()};
   for (const Checkpoint& checkpoint : {drive, packing, Checkpoint{}}) {
-    write_checkpoint(file, checkpoint);  // over the one before
+    write_checkpoint(file, checkpoint);  // replaces the previous file
     CHECK(same_bits(read_checkpoint(file), checkpoint));
     CHECK_FALSE(fs::exists(file.string() + ".tmp"));
     const std::string bytes = file_bytes(file);
@@ -72,7 +72,7 @@ TEST_CASE("a checkpoint comes back to the last bit, and its bytes are these") {
 }
 
 TEST_CASE("a checkpoint that does not fit together is refused with its name") {
-  // what else may be wrong with a sealed file: tests/platform/pack_test.cpp
+  // tests/platform/pack_test.cpp tests the other faults of a sealed file.
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "checkpoint.bin";
   const auto refusal = [&] {

@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A run of `steps` steps of 1 ms each, told to a Progress.
+/// The output of a Progress for a run of `steps` steps of 1 ms each.
 std::string told(Progress::Style style, int steps, double seconds_per_step) {
   std::ostringstream out;
   double now = 100.0;
@@ -66,7 +66,7 @@ TEST_CASE("phases, resumed runs and silence") {
   double now = 0.0;
   {
     Progress progress(Progress::Style::lines, out, [&] { return now; });
-    progress.finish();  // nothing shown yet
+    progress.finish();  // nothing was shown yet
     CHECK(out.str().empty());
     StepRecord record;
     for (int step = 1; step <= 30; ++step) {
@@ -76,7 +76,7 @@ TEST_CASE("phases, resumed runs and silence") {
     }
     progress.finish();
     out.str("");
-    // a phase that is entered in its middle: the rate counts from there
+    // When a phase is entered in its middle, the rate counts from there.
     for (int step = 1; step <= 12; ++step) {
       record.time = 0.5 + 0.01 * step;
       progress.show("drive", 1.0, record);

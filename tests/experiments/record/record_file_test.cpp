@@ -25,7 +25,7 @@ void write_log(const fs::path& path, long rows, size_t row_size) {
   log.flush();
 }
 
-/// A number of /proc/self/status, such as "VmRSS:" [kB].
+/// A number in /proc/self/status, such as "VmRSS:" [kB].
 long memory_entry(const std::string& name) {
   std::ifstream status("/proc/self/status");
   std::string word;
@@ -36,8 +36,8 @@ long memory_entry(const std::string& name) {
   return kilobytes;
 }
 
-/// By how many kB `work` raises the resident memory of a process of its own, at its peak.
-/// Sanitizers keep what is freed: 0 under them.
+/// The amount by which `work` raises the peak of the resident memory of a child process [kB]. It is
+/// 0 under sanitizers, which keep freed memory.
 long peak_memory(const std::function<void()>& work) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   work();
@@ -58,7 +58,7 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
   OpenRecord open(10);
   const MechanicalSystem& system = open.system;
   const std::string scene(100000, 's'),
-      manifest = "{\"µ\": 1}";  // longer than a compact attribute may be
+      manifest = "{\"µ\": 1}";  // the scene is longer than a compact attribute may be
   open.recorder.finish(scene, manifest);
   const fs::path path = open.path() / "record.h5";
   const Hdf5Reader file(path);
@@ -90,8 +90,8 @@ TEST_CASE("record.h5 explains itself: units, bodies, shapes, scene and manifest"
   REQUIRE(file.shape("shapes/triangles") == Hdf5Shape{static_cast<size_t>(triangle_begin[2]), 3});
   for (int k = 0; k < 2; ++k) {
     CHECK(vertex_begin[k + 1] - vertex_begin[k] == system.shapes[k]->vertex_count());
-    // the volume by the divergence theorem: vertices, triangles and their orientation all have to
-    // be right
+    // Computes the volume by the divergence theorem, which is right only if vertices, triangles and
+    // their orientation are.
     double volume = 0.0;
     for (size_t t = 3 * static_cast<size_t>(triangle_begin[k]);
          t < 3 * static_cast<size_t>(triangle_begin[k + 1]); t += 3) {
@@ -191,7 +191,7 @@ TEST_CASE("a contact of a body that is not there is refused") {
 TEST_CASE("quantities of rows become datasets, more rows than are gathered at once") {
   const TemporaryFolder folder;
   const fs::path log = folder.path() / "rows", record = folder.path() / "a.h5";
-  constexpr long rows = 50000;  // of 48 bytes: more than two megabytes
+  constexpr long rows = 50000;  // 48 bytes each: more than two megabytes
   write_log(log, rows, 6);
   Hdf5Writer writer(record, Hdf5Storage::compressed);
   const RowLayout layout{
@@ -218,7 +218,7 @@ TEST_CASE("quantities of rows become datasets, more rows than are gathered at on
       fits = fits && square[4 * k + i] == first + 1 + static_cast<double>(i);
   }
   CHECK(fits);
-  // rows that are longer than what is gathered, and none at all
+  // Rows that are longer than the buffer, and no rows at all.
   for (const long count : {0L, 3L}) {
     write_log(log, count, 200000);
     Hdf5Writer other(record, Hdf5Storage::compressed);
@@ -238,7 +238,7 @@ TEST_CASE("a record takes the same memory however long its run was") {
     memory.contacts.push_back({c, c + 1, 7, Vec3(0, 0, 1), Vec3(x, -x, 2 * x), -1e-6 * x});
     memory.impulses.emplace_back(x, 0.5, x);
   }
-  // at the end of a run of so many frames
+  // The peak at the end of a run of this number of frames.
   const auto peak_after = [&](long frames) {
     const TemporaryFolder folder;
     Recorder recorder(folder.path(), system, 0, true);
@@ -249,13 +249,13 @@ TEST_CASE("a record takes the same memory however long its run was") {
     }
     return peak_memory([&] { recorder.finish("", ""); });
   };
-  // 4 MB of contacts, and 27 MB
+  // 4 MB of contacts, and 27 MB.
   CHECK(peak_after(120) < peak_after(20) + 5000);
 }
 
 TEST_CASE("record.h5 has the contacts and forces of every stored frame, where they are asked for") {
   OpenRecord open(20, true);
-  // one more frame, with a contact that has no force
+  // One more frame, with a contact without force.
   StepMemory memory = sample_memory(2);
   memory.impulses[0] = Vec3::Zero();
   const MotionState state = sample_state(open.system, 25);
@@ -263,7 +263,7 @@ TEST_CASE("record.h5 has the contacts and forces of every stored frame, where th
   open.recorder.finish("", "");
   const fs::path record = open.path() / "record.h5";
   const Hdf5Reader file(record);
-  // steps 0 (none: before the first step), 5, 10, 15, 20, 25 have 0, 1, 2, 3, 0, 2 contacts
+  // Steps 0 (none: before the first step), 5, 10, 15, 20, 25 have 0, 1, 2, 3, 0, 2 contacts.
   CHECK(file.read<int>("contacts/frame_begin") == std::vector<int>{0, 0, 1, 3, 6, 6, 8});
   CHECK(file.read<int>("contacts/body_a") == std::vector<int>{0, 0, 1, 0, 1, 2, 0, 1});
   CHECK(file.read<int>("contacts/body_b") == std::vector<int>{1, 1, 2, 1, 2, 3, 1, 2});
@@ -275,7 +275,7 @@ TEST_CASE("record.h5 has the contacts and forces of every stored frame, where th
   CHECK(hdf5_attribute(record, "contacts/force", "unit") == "N");
   CHECK_FALSE(hdf5_attribute(record, "contacts/gap", "description").empty());
 
-  // read back, those without force left out
+  // Reading leaves contacts without force out.
   const RecordForces forces(record);
   REQUIRE(forces.frame_count() == 6);
   for (size_t k = 0; k < 6; ++k)

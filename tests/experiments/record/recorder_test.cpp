@@ -1,5 +1,5 @@
-// Records of runs that went through, and logs of runs that died: what is kept, what is cut off,
-// what is refused.
+// Records of runs that ended normally, and logs of killed runs: the rows that are kept and cut off,
+// and the logs that are refused.
 
 #include "experiments/record/recorder.hpp"
 
@@ -12,7 +12,7 @@ using namespace ballast;
 namespace fs = std::filesystem;
 
 TEST_CASE("records come back to the last bit, from the logs and from record.h5") {
-  for (const long steps : {23, 0, 6000}) {  // the last: more frames than are gathered at once
+  for (const long steps : {23, 0, 6000}) {  // the last: more frames than one buffer holds
     OpenRecord open(steps);
     check_record(open.path(), open.system, steps);
     open.recorder.finish("scene text", "{}");
@@ -50,8 +50,8 @@ TEST_CASE("a killed and resumed run leaves the same files as one that went throu
   killed([&] {
     Recorder recorder(folder.path(), system, 0, true);
     record(recorder, system, 1, 12);
-    recorder.flush();                     // with the checkpoint of step 12
-    record(recorder, system, 113, 1000);  // others, and more than a buffer holds
+    recorder.flush();                     // as with the checkpoint of step 12
+    record(recorder, system, 113, 1000);  // other steps, more than a buffer holds
   });
   CHECK(read_steps(folder.path()).size() > 12);
   for (int life = 0; life < 2; ++life) {  // dies twice at the same place
@@ -101,7 +101,7 @@ TEST_CASE("logs that do not fit the checkpoint or the system are refused") {
   CHECK_THAT(refusal(system, 11),
              Contains(steps) && Contains("has 10 steps, the checkpoint is at step 11"));
   require_same_bodies(open.path(), system);
-  require_same_bodies(open.path() / "no log", system);  // nothing to compare with
+  require_same_bodies(open.path() / "no log", system);  // there is nothing to compare with
   MechanicalSystem other = sample_system();
   other.bodies[1].mass *= 1.0 + 1e-15;
   CHECK_THAT(refusal(other, 10), Contains(steps) && Contains("another system of bodies"));

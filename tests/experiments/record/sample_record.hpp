@@ -1,5 +1,5 @@
 #pragma once
-// Made-up runs told to a recorder, and killed ones.
+// Made-up runs for a recorder, and killed ones.
 
 #include <signal.h>
 #include <sys/wait.h>
@@ -11,7 +11,7 @@ namespace ballast {
 
 constexpr double sample_step = 2e-4;  // [s]
 
-/// `step % 4` contacts, all numbers of which say the step and the contact.
+/// Memory of `step % 4` contacts, with numbers that depend on the step and the contact.
 inline StepMemory sample_memory(long step) {
   StepMemory memory;
   for (int c = 0; c < step % 4; ++c) {
@@ -22,7 +22,7 @@ inline StepMemory sample_memory(long step) {
   return memory;
 }
 
-/// Steps first .. last, a frame at every fifth (and at 0), as a run does.
+/// Records the steps first .. last, with a frame at every fifth (and at 0), as a run does.
 inline void record(Recorder& recorder, const MechanicalSystem& system, long first, long last) {
   for (long step = first == 1 ? 0 : first; step <= last; ++step) {
     if (step > 0) recorder.add_step(sample_row(step));
@@ -32,7 +32,7 @@ inline void record(Recorder& recorder, const MechanicalSystem& system, long firs
   }
 }
 
-/// A folder with the record of the sample system's first steps, still open, all of it on disk.
+/// A folder with the record of the sample system's first steps, still open but flushed to disk.
 struct OpenRecord {
   explicit OpenRecord(long steps, bool with_forces = false)
       : recorder(folder.path(), system, 0, with_forces) {
@@ -57,8 +57,8 @@ inline void check_record(const std::filesystem::path& folder, const MechanicalSy
     CHECK(same_bits(frames[k], sample_state(system, 5 * static_cast<long>(k))));
 }
 
-/// Runs `action` in a child that then dies without cleaning up, as by kill -9: what it had buffered
-/// is lost.
+/// Runs `action` in a child that then dies without cleaning up, as by kill -9: its buffers are
+/// lost.
 template <class Action>
 void killed(Action&& action) {
   const pid_t child = fork();

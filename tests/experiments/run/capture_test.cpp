@@ -1,4 +1,4 @@
-// Problems captured from a run: whole, as they were, and without a trace in the run.
+// Problems captured from a run are complete and unchanged, and do not change the run.
 
 #include "experiments/run/capture.hpp"
 #include "experiments/run/run.hpp"
@@ -71,9 +71,9 @@ TEST_CASE("A captured step comes back as the solver saw it") {
     CHECK(Vec3(back.frame.data() + 9 * c) == contact.normal);
     CHECK(Vec3(back.position.data() + 3 * c) == contact.position);
   }
-  // through the general door too, and the run's own error with it
+  // The general reader takes the file too, and the error is that of the run's own step.
   CHECK(contact_error(read_problem(file), back.solution).natural_map_rms == record.error_rms);
-  // the pair is consecutive: the warm start is the solution before, where contacts stayed
+  // The two steps are consecutive: the warm start is the solution before, where contacts stayed.
   const CapturedProblem before = read_captured(folder.path() / "step_0000020.hdf5");
   REQUIRE(before.key == back.key);
   CHECK((before.solution - back.start).norm() <= 1e-12 * before.solution.norm());
@@ -83,7 +83,7 @@ TEST_CASE(
     "a phase is told beside the fastest wall of the whole run, however often it was stopped") {
   const TemporaryFolder folder;
   RunOptions options;
-  // the wall falls onto the box, and rests from step 8 on
+  // The wall falls onto the box and rests from step 8 on.
   options.scene = folder.write("press.toml",
                                "[scene]\nstep = 2e-3\nduration = 0.02\n"
                                "[[wall]]\nnormal = [0, 0, 1]\n"
@@ -96,7 +96,7 @@ TEST_CASE(
   options.capture = CaptureSettings::parse("from=9,to=10");
   options.style = Progress::Style::quiet;
   options.resume = true;
-  options.max_seconds = 0.0;  // one step each time
+  options.max_seconds = 0.0;  // one step at each call
   while (run(options).code == ExitCode::time_limit) continue;
   for (const char* name : {"step_0000009.hdf5", "step_0000010.hdf5"})
     CHECK(read_captured(options.output / "capture" / name).phase == "jammed");

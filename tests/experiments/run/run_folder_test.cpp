@@ -45,7 +45,7 @@ TEST_CASE("a manifest says what a run was made by and from, and is read back") {
   CHECK(read.summary_number("ms_per_step") == 40.5);
   CHECK(std::isnan(read.summary_number("packing")));
   CHECK(std::isnan(read.summary_number("no such name")));
-  // text that is no UTF-8 does not break it
+  // Text that is not UTF-8 does not break it.
   CHECK_NOTHROW(nlohmann::json::parse(Manifest("s\xff", {}, "k").text()));
 }
 
@@ -105,13 +105,13 @@ TEST_CASE("a fresh run refuses a folder with a run; overwriting clears what a ru
   for (const fs::path& file : written) CHECK_FALSE(fs::exists(folder.path() / file));
   CHECK_FALSE(fs::exists(folder.path() / "figures/cost.gnuplot"));
   for (const fs::path& file : users) CHECK(file_bytes(folder.path() / file) == "the user's own");
-  CHECK_FALSE(fs::exists(folder.path() / "capture"));  // it had nothing else in it
+  CHECK_FALSE(fs::exists(folder.path() / "capture"));  // it had no other files
 }
 
 TEST_CASE("a folder with somebody's files is neither emptied nor mixed into") {
   const TemporaryFolder place;
   const RunFolder folder(place.path());
-  // a scene.toml, a manifest.json and figures can be anybody's
+  // A scene.toml, a manifest.json and figures need not be a run's.
   for (const char* name : {"scene.toml", "manifest.json", "steps.csv", "notes.txt"}) {
     INFO(name);
     put_bytes(folder.path() / name, "the user's own");
@@ -122,7 +122,7 @@ TEST_CASE("a folder with somebody's files is neither emptied nor mixed into") {
     CHECK(std::distance(fs::directory_iterator(place.path()), fs::directory_iterator()) == 1);
     fs::remove(folder.path() / name);
   }
-  // what a run that was killed at once leaves is in nobody's way
+  // The remains of a run that was killed at once do not matter.
   put_bytes(folder.path() / "run.lock", "process 1 on host");
   Manifest("scene", {}, "key").write(folder.manifest());
   begin(folder, "scene");
@@ -145,7 +145,7 @@ TEST_CASE("finished: all files, this key, and no steps left") {
   CHECK_FALSE(folder.is_finished("other"));
   put_manifest("key", 3);
   CHECK_FALSE(folder.is_finished("key"));
-  Manifest("scene", {}, "key").write(folder.manifest());  // says nothing of steps
+  Manifest("scene", {}, "key").write(folder.manifest());  // does not tell the number of steps
   CHECK_FALSE(folder.is_finished("key"));
 }
 

@@ -1,4 +1,4 @@
-// Runs as a whole: the same bits twice, after a stop, after kill -9; what a folder refuses.
+// Whole runs give the same bits twice, after a stop and after kill -9; a folder loses no run.
 
 #include <signal.h>
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ RunOptions small_run(const fs::path& output, const fs::path& packings) {
   return options;
 }
 
-/// Runs in a child process and kills it after `milliseconds`; true if it was still running.
+/// Runs in a child process and kills it after `milliseconds`. True if it was still running.
 bool killed_after(const RunOptions& options, int milliseconds) {
   const pid_t child = fork();
   if (child == 0) {
@@ -48,7 +48,7 @@ TEST_CASE(
   const TemporaryFolder place;
   const fs::path once = place.path() / "once", again = place.path() / "again",
                  stopped = place.path() / "stopped";
-  // What stops the others comes early enough on any machine: as parts of what this one takes.
+  // The others stop after parts of this run's time, which is early enough on any machine.
   const Stopwatch whole;
   REQUIRE(run(small_run(once, place.path() / "p1")).code == ExitCode::ok);
   const double seconds = whole.seconds();
@@ -66,7 +66,7 @@ TEST_CASE(
     int stops = 0;
     options.resume = true;
     while (run(options).code == ExitCode::time_limit) {
-      options.max_seconds *= 1.05;  // under sanitizers, beside other work: it ends all the same
+      options.max_seconds *= 1.05;  // so that it ends under sanitizers and beside other work too
       REQUIRE(++stops < 100);
     }
     CHECK(stops >= 2);
@@ -110,7 +110,7 @@ TEST_CASE("what a run shows: no grain escapes, overlap stays small, the energy a
       const Vec3& normal = system.bodies[w].wall.normal;
       CHECK(normal.dot(state.pose[b].position - state.pose[w].position) > 0.0);
     }
-  // what a reader wants to know of the box
+  // The manifest has the facts of the box that a reader wants to know.
   const Manifest manifest = Manifest::read(place.path() / "run" / "manifest.json");
   const double top = manifest.summary_number("packing_top_m");
   CHECK(manifest.summary_number("grain_mass_kg") == system.mass_of_grains());
@@ -125,21 +125,21 @@ TEST_CASE("begin or resume: begins, goes on, and leaves a finished run as it is"
   REQUIRE(run(options).code == ExitCode::ok);
   CHECK_FALSE(fs::exists(folder));
   CHECK(std::distance(fs::directory_iterator(place.path() / "p"), fs::directory_iterator()) ==
-        1);  // no lock, no part left
+        1);  // no lock and no unfinished deposit are left
   options.deposit_only = false;
   options.resume = true;
   options.max_seconds = 0.01;
   int stops = 0;
   for (; run(options).code == ExitCode::time_limit; ++stops) {
     REQUIRE(stops < 100);
-    options.max_seconds *= 1.1;  // under sanitizers, beside other work: it ends all the same
+    options.max_seconds *= 1.1;  // so that it ends under sanitizers and beside other work too
   }
   CHECK(stops >= 1);
   const auto written = fs::last_write_time(RunFolder(folder).manifest());
   CHECK(run(options).code == ExitCode::ok);
   CHECK(fs::last_write_time(RunFolder(folder).manifest()) == written);
   CHECK_FALSE(fs::exists(folder / "run.lock"));
-  // where there is nothing to do no lock is needed, as in a folder that may only be read
+  // A finished run needs no lock, as in a folder that may only be read.
   fs::create_directory(folder / "run.lock");
   CHECK(run(options).was_finished);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A synthetic box as the pages of a run see it.
+// A synthetic box in the form that the pages of a run read.
 
 #include "experiments/measure/run_data.hpp"
 #include "tests/support/synthetic_run.hpp"

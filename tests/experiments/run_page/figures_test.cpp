@@ -26,7 +26,7 @@ TEST_CASE("the loop's phases take each step once, and the axis cuts spikes off")
   BoxRun box = box_run();
   const WallCycles& cycles = box.summary.wall;
   const size_t first = cycles.periods[cycles.loop_first].first;
-  box.data.steps[first + 10].wall_force = 1e9;  // one step's spike
+  box.data.steps[first + 10].wall_force = 1e9;  // a spike in one step
   const Panel panel = figure_4(box.data, box.summary).plot.panels.at(0);
   REQUIRE(panel.curves.size() == 5);  // each step, three phases, fits
   CHECK(*panel.y_max < 20.0);         // kN
@@ -34,7 +34,7 @@ TEST_CASE("the loop's phases take each step once, and the axis cuts spikes off")
   for (size_t k = first + 1; k < last; ++k) {
     int drawn = 0;
     for (size_t c = 1; c < 4; ++c) drawn += std::isfinite(panel.curves[c].y[k - first]);
-    // where the phase changes, the sample belongs to both curves: no gap
+    // At a change of phase the sample belongs to both curves, so that there is no gap.
     const WallPhase before = cycles.phase[k - 1], now = cycles.phase[k];
     CHECK(drawn == (now != WallPhase::none) + (before != WallPhase::none && before != now));
   }
@@ -83,13 +83,13 @@ TEST_CASE("a slide without overlap has no figure of it, and no jam") {
   CHECK_FALSE(find(figures, "penetration"));
   CHECK_FALSE(find(figures, "jammed"));
   CHECK(find(figures, "error"));
-  // the record is balanced: its residual stays at rounding
+  // The record is balanced: its residual is of the size of rounding errors.
   REQUIRE(find(figures, "energy"));
   for (const double residual : find(figures, "energy")->plot.panels.back().curves.at(1).y)
     CHECK(residual < 1e-12);
   CHECK_THAT(plain_words(find(figures, "error")->caption.at(0)),
              Contains("In m/s, as there is no"));
-  // where bodies overlap it is not by a first contraction
+  // The caption of a scene's overlaps does not mention a first contraction.
   slide.summary.penetration_max = 1e-6;
   const auto overlapping = diagnostic_figures(slide.data, slide.summary);
   CHECK_THAT(plain_words(find(overlapping, "penetration")->caption.at(0)),

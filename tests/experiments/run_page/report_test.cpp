@@ -53,7 +53,7 @@ void write_box(const TemporaryFolder& folder, const std::vector<std::string>& wi
   write_scene(folder, "vibrated_box");
 }
 
-/// A slide of a scene without a wall.
+/// Writes a slide of a scene without a wall.
 void write_slide(const TemporaryFolder& folder, const std::vector<std::string>& without = {}) {
   write_rows(folder.path(), synthetic_slide(), without);
   folder.write("manifest.json", "{}");
@@ -121,7 +121,7 @@ TEST_CASE("a sliding cube has no wall and no packing on its page") {
   CHECK_THAT(page,
              !Contains("Solid fraction") && !Contains("Motion of the wall") && !Contains("Jammed"));
   CHECK(nesting_fault(page) == "");
-  // of a record with nothing but the time there is still a page
+  // A record with nothing but the time still has a page.
   std::vector<std::string> others;
   for (const StepColumn& column : step_columns().subspan(1)) others.push_back(column.name);
   write_slide(folder, others);
@@ -136,7 +136,7 @@ TEST_CASE("every column but time may be missing, one by one") {
     const TemporaryFolder folder, empty;
     write_box(folder, {column.name});
     const EnvironmentGuard guard(
-        "PATH", empty.path().string());  // the numbers alone: no figures, 26 times faster
+        "PATH", empty.path().string());  // numbers only: without figures it is 26 times faster
     INFO(column.name);
     const std::string page = page_of(folder);
     CHECK_THAT(page, Contains(std::string(column.name) + " is not finite in 5000 of 5000"));
@@ -204,7 +204,7 @@ TEST_CASE("neither a manifest of other parts nor a scene that is wrong is a faul
                GENERATE("{\"summary\": 3, \"ballast\": [], \"overrides\": {}, \"resumed\": 1}",
                         "{\"summary\": {\"deep\": {\"er\": [1, {\"a\": null}]}}}"));
   CHECK(nesting_fault(page_of(folder)) == "");
-  write_box(folder);  // of a scene whose meshes are gone there is still a page
+  write_box(folder);  // a scene whose meshes are gone still has a page
   folder.write("scene.toml", "[scene]\nname = 3\n");
   const std::string page = page_of(folder);
   CHECK_THAT(page, Contains("The scene cannot be used: ") && !Contains(">nan"));
@@ -220,7 +220,7 @@ TEST_CASE("the scene's parameters are on the page") {
   CHECK_THAT(page, !Contains("To be known before reading"));
 }
 
-/// The row whose first cell begins so, as plain words.
+/// The plain words of the row whose first cell begins with `beginning`.
 std::vector<std::string> row_of(const page::Table& table, const std::string& beginning) {
   for (const auto& row : table.rows) {
     if (!plain_words(row[0]).starts_with(beginning)) continue;
@@ -267,7 +267,7 @@ TEST_CASE("errors are judged by what the scene asks of each step") {
   row_of(results_table(floating), "error, rms over contacts (g h)");
   floating.facts.velocity_scale = 1.0;  // without gravity
   row_of(results_table(floating), "error, rms over contacts (m/s)");
-  // a scene that asks for nothing is not judged
+  // A scene without limits is not judged.
   CHECK(rows(not_known)[0][2].empty());
   CHECK(rows(not_known)[0][3].empty());
 }
@@ -296,9 +296,9 @@ TEST_CASE("a row for each whole period, its number counted from the drive's star
     CHECK(table.rows[p].size() == table.head.size());
     CHECK(table.rows[p][0] == page::exact(std::round(5.0 * summary.wall.periods[p].end)));
   }
-  CHECK(plain_words(table.rows[0].back()) == "–");  // no gain before the first
+  CHECK(plain_words(table.rows[0].back()) == "–");  // the first period has no gain
   CHECK(plain_words(table.rows[1].back()) == "0.0012");
-  summary.facts.has_packing = false;  // and no solid fraction
+  summary.facts.has_packing = false;  // takes the column of the solid fraction out
   const page::Table bare = periods_table(summary);
   CHECK((bare.head.size() == 8 && bare.rows[0].size() == 8 && bare.is_number.size() == 8));
 }
@@ -311,7 +311,7 @@ TEST_CASE("what makes a run again and what comes next can be pasted in any folde
   CHECK_THAT(reproduce_commands(data),
              Catch::Contains(shell_line({own_program().string(), "run", folder + "/scene.toml",
                                          "--output", folder + "-again"})));
-  data.scene_text.clear();  // nothing to make it from
+  data.scene_text.clear();  // leaves nothing to run again
   CHECK_THAT(reproduce_commands(data), !Catch::Contains("run"));
   for (const bool has_grains : {false, true})
     CHECK_THAT(next_commands(has_grains), Catch::Contains(shell_word(own_program().string())));

@@ -30,7 +30,7 @@ TEST_CASE("the intermediate axis flips over (Dzhanibekov), to second order in h"
   const Vec3 reference = spin_at(1e-5);
   const double coarse = (spin_at(2e-3) - reference).norm(),
                fine = (spin_at(1e-3) - reference).norm();
-  CHECK(reference.y() < 4.0);  // it has left the unstable axis
+  CHECK(reference.y() < 4.0);  // has left the unstable axis
   CHECK(coarse / fine == Approx(4.0).margin(0.1));
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("many bodies' spins have the bits of one's") {
   for (const size_t bodies : {0, 1, 7, 8, 9, 2000}) {
     std::vector<Vec3> inertia, spin, after(bodies);
     for (size_t b = 0; b < bodies; ++b) {
-      // at rest, slow, fast, too fast for the step, and not finite
+      // At rest, slow, fast, too fast for the step, and not finite.
       const double size = b % 11 == 0   ? 0.0
                           : b % 97 == 5 ? infinite
                                         : std::exp(15.0 * unit(random));

@@ -16,8 +16,8 @@ namespace {
 constexpr double e = 0.8;
 const Budget exact{.tolerance = 1e-11, .max_iterations = 200000};
 
-/// One cluster of two bodies that strikes the ground, with friction: dynamics form, and what each
-/// contact rebounds with.
+/// A cluster of two bodies that strikes the ground, with friction, in the dynamics form; and the
+/// rebound velocity of each contact.
 struct Strike {
   FrictionProblem problem;
   std::vector<double> rebound;
@@ -38,12 +38,12 @@ Strike strike(std::uint64_t seed) {
   return strike;
 }
 
-/// What impulses take from the free motion, by dense matrices.
+/// The energy that the impulses take from the free motion, by dense matrices.
 double loss(const Strike& s, const Impulses& r) {
   return -r.dot(s.u_free) - 0.5 * r.dot(oracle::dense_delassus(s.problem) * r);
 }
 
-/// The same coefficient at every contact.
+/// The coefficient e at every contact.
 std::vector<double> all_e(size_t contacts) { return std::vector<double>(contacts, e); }
 
 Impulses solved(Strike s, double scale) {
@@ -72,7 +72,7 @@ TEST_CASE("a rebound gives back at most e^2 of what the inelastic impact takes")
     CHECK(loss(s, solved(s, 0.0)) >= 0.0);
     CHECK(ours >= asked - least);
     if (newtons >= asked + least) {
-      // Newton's law where it may: to the last bit.
+      // Newton's law where it loses enough energy, to the last bit.
       ++kept;
       CHECK(law.least_restitution() == e);
       CHECK(run.solved.impulses ==
@@ -80,7 +80,7 @@ TEST_CASE("a rebound gives back at most e^2 of what the inelastic impact takes")
     } else if (newtons < asked - least) {
       ++lowered;
       CHECK(law.least_restitution() < e);
-      // Not lower than need be: a slow search over the scale.
+      // It is not lowered more than necessary: compares with a slow search over the scale.
       double scale = 1.0;
       while (scale > 0.0 && loss(s, solved(s, scale)) < asked) scale -= 0.02;
       CHECK(law.least_restitution() > 0.7 * e * (scale - 0.02));
@@ -117,7 +117,7 @@ TEST_CASE("a force that pulls bodies apart lowers e by no more than what it does
 }
 
 TEST_CASE("islands are limited each on its own") {
-  // A cluster that Newton's law would give energy to, beside one that loses more: apart by nature.
+  // A cluster that gains energy by Newton's law, beside a separate one that loses more.
   std::uint64_t seed = 1;
   const auto gains = [](const Strike& s) {
     return loss(s, solved(s, 1.0)) < 0.9 * (1.0 - e * e) * loss(s, solved(s, 0.0));
@@ -143,7 +143,7 @@ TEST_CASE("islands are limited each on its own") {
     d.h_begin.push_back(d.h_begin[contacts] + d.h_begin[c + 1]);
     twice.row_begin.push_back(rows + twice.row_begin[c + 1]);
     twice.friction.push_back(s.problem.friction[c]);
-    rebound.push_back(0.0);  // the second cluster does not rebound: it takes a lot
+    rebound.push_back(0.0);  // the second cluster does not rebound: it loses much energy
   }
   d.v_free.conservativeResize(2 * dofs);
   d.v_free.tail(dofs) = d.v_free.head(dofs);
@@ -196,7 +196,7 @@ TEST_CASE("a bar that falls on its corner never gains energy, whatever its turn"
     CHECK(record.energy_gained <= 1e-9 * before);
     CHECK(record.restitution <= e);
     lowered += record.restitution < e;
-    // Newton's law alone, on the same problem.
+    // Solves the same problem by Newton's law alone.
     FrictionProblem problem = stepper.problem();
     const auto rebound = stepper.assembler().rebound();
     for (int c = 0; c < problem.contact_count(); ++c)
@@ -208,6 +208,6 @@ TEST_CASE("a bar that falls on its corner never gains energy, whatever its turn"
     for (int i = 0; i < v.size(); ++i) after += 0.5 * stepper.assembler().mass()[i] * v[i] * v[i];
     newtons_gain = std::max(newtons_gain, after - before);
   }
-  CHECK(newtons_gain > 0.1);  // [J]: what is at stake
+  CHECK(newtons_gain > 0.1);  // [J]: the gain that must not happen
   CHECK(lowered > 5);
 }

@@ -1,5 +1,5 @@
-// The mechanics' known answers (numbers as in docs/theory/known_answers.md), each a scene of
-// problems/scenes run by the stepper. Where a formula is exact for the scheme it is checked at
+// The known answers of the mechanics (with the numbers of docs/theory/known_answers.md), each in a
+// scene of problems/scenes run by the stepper. A formula that is exact for the scheme is checked at
 // every step; elsewhere the error must fall with h.
 
 #include <functional>
@@ -66,7 +66,7 @@ TEST_CASE("1 incline: sticks up to tan(theta) = mu and no further") {
   for (const double phi : {0.0, std::numbers::pi / 4}) {
     const auto speed = [&](double slope) {
       const Outcome out =
-          // Five hundred steps may add up their errors: together less than what is asked below.
+          // The errors of five hundred steps may add up; their sum is below the bounds that follow.
           run("incline", {gravity_towards(slope * std::cos(phi), slope * std::sin(phi), -1.0),
                           "solver.tolerance=1e-10"});
       return out.state.velocity[0].norm();
@@ -131,7 +131,7 @@ TEST_CASE("4 tipping box: tips iff tan(theta) > w/H and mu > w/H") {
         {gravity_towards(c.slope, 0, -1), "wall.0.friction=" + number(c.mu), "scene.duration=0.3"});
     INFO("tan(theta) = " << c.slope << ", mu = " << c.mu);
     CHECK((out.state.spin[0].norm() > 1e-3) == c.tips);
-    const double lower_edge_speed =  // of the lower corner, in x: the box turns about it
+    const double lower_edge_speed =  // in x, of the lower corner, about which the box turns
         (out.state.velocity[0] + (out.state.pose[0].rotation * out.state.spin[0])
                                      .cross(out.state.pose[0].rotation * Vec3(0.125, 0, -0.25)))
             .x();
@@ -144,7 +144,7 @@ TEST_CASE("7 overhang: stands at 98 % of (w/2)(1 + 1/2 + 1/3 + 1/4), falls at 10
     std::vector<std::string> overrides;
     const double centres[] = {0.03125, 0.0729166666666666667, 0.1354166666666666667,
                               0.2604166666666666667};
-    for (int brick = 0; brick < 4; ++brick)  // bodies 1 .. 4 from below
+    for (int brick = 0; brick < 4; ++brick)  // bodies 1 .. 4, from the bottom
       overrides.push_back("body." + std::to_string(brick + 1) + ".position=[" +
                           number(part * centres[brick] - 0.125) + ", 0, " +
                           number(0.03125 + 0.0625 * brick) + "]");

@@ -1,5 +1,5 @@
-// Arches of dry stones: more contacts than their bodies' unknowns fix. Newton's endgame needs many
-// steps there, and arrives.
+// Arches of dry stones have more contacts than their bodies' unknowns determine. Newton's endgame
+// needs many steps there, and converges.
 
 #include <cmath>
 #include <numbers>
@@ -16,7 +16,7 @@ using namespace ballast;
 
 namespace {
 
-/// A half circle of radius 1 m between two fixed abutments. `thickness` in [m].
+/// A half circle of radius 1 m between two fixed abutments; `thickness` [m].
 struct Arch {
   int stones;
   double thickness, friction;
@@ -37,7 +37,7 @@ std::string corners(const Arch& arch) {
 }
 
 Scene scene_of(const Arch& arch) {
-  const double turn = 180.0 / arch.stones;  // of one stone [degrees]
+  const double turn = 180.0 / arch.stones;  // angle of one stone [degrees]
   const TemporaryFolder folder;
   return read_scene(folder.write(
       "arch.toml",

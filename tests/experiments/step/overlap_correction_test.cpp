@@ -11,7 +11,7 @@ namespace {
 constexpr double h = 1e-3;        // [s]
 constexpr double overlap = 1e-4;  // [m]
 
-/// Cubes of 1 and 3 kg, one above the other, that touch in one point of their middles and overlap.
+/// Cubes of 1 and 3 kg, one above the other, that overlap with one contact between their centres.
 struct TwoCubes {
   explicit TwoCubes(bool lower_is_fixed = false) {
     Scene scene = empty_scene();
@@ -25,7 +25,7 @@ struct TwoCubes {
     system = make_system(scene, state);
     contacts = {{0, 1, 0, Vec3::UnitZ(), Vec3(0, 0, 0.1 - overlap / 2), -overlap}};
   }
-  /// Of one step, with the velocities of the state. Returns the potential energy given [J].
+  /// Corrects one step, with the velocities of the state. Returns the potential energy given [J].
   double correct(const CorrectionSpec& spec) {
     ProblemAssembler assembler(system);
     Eigen::VectorXd v;
@@ -55,7 +55,7 @@ TEST_CASE("two cubes part by the fraction of their overlap, each inversely to it
   const double parted = 0.4 * (overlap - 1e-5);
   CHECK(cubes.rise(0) == Approx(-0.75 * parted).epsilon(1e-9));
   CHECK(cubes.rise(1) == Approx(0.25 * parted).epsilon(1e-9));
-  CHECK(std::abs(potential) < 1e-15);  // the centre of mass stays
+  CHECK(std::abs(potential) < 1e-15);  // the centre of mass stays in place
 }
 
 TEST_CASE("over a fixed cube all of it is lifted, against gravity") {

@@ -29,7 +29,7 @@ TEST_CASE("phases are the columns of seconds, and add up to the step") {
     INFO(column.name);
     const bool is_seconds = std::string(column.name).starts_with("seconds_");
     CHECK((column.phase != nullptr) == is_seconds);
-    record.*column.value = 1e6;  // no other column counts
+    record.*column.value = 1e6;  // the other columns do not count
     if (!column.phase) continue;
     record.*column.value = each;
     sum += each;

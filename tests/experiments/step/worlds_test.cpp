@@ -1,6 +1,6 @@
-// The worlds of problems/scenes beside their known answers: what each scene's comment says,
-// measured on its own step. Those that take minutes are tagged [.worlds]; what they gave stands in
-// docs/theory/known_answers.md.
+// The worlds of problems/scenes: the known answer in each scene's comment, measured with the
+// scene's own step. Those that take minutes have the tag [.worlds]; docs/theory/known_answers.md
+// has their results.
 
 #include <functional>
 #include <iostream>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double gravity = 9.81;
 
-/// A scene under way.
+/// A scene in the course of its run.
 struct World {
   Scene scene;
   MechanicalSystem system;
@@ -49,7 +49,7 @@ struct World {
   const Vec3& velocity(const std::string& name) const { return state.velocity[body(name)]; }
   bool is_free(size_t b) const { return system.bodies[b].freedom.count() > 0; }
 
-  /// What the contacts of the last step pushed that body with [N].
+  /// The force of the contacts on that body in the last step [N].
   Vec3 force_on(const std::string& name) const {
     const int k = body(name);
     Vec3 sum = Vec3::Zero();
@@ -77,7 +77,7 @@ struct World {
       if (is_free(b)) sum += system.bodies[b].mass * state.velocity[b];
     return sum;
   }
-  /// Of the bodies that can move: how far one has gone from where `before` has it.
+  /// The largest distance of a body that can move from its place in `before`.
   double largest_move(const std::vector<Pose>& before) const {
     double most = 0.0;
     for (size_t b = 0; b < before.size(); ++b)
@@ -95,7 +95,7 @@ std::string leaning(double degrees) {
   return printed("gravity.direction=[%.17g, 0, %.17g]", std::sin(angle), -std::cos(angle));
 }
 
-/// body.0.points of an arch of 17 voussoirs whose mean radius is 1 m.
+/// body.0.points for an arch of 17 voussoirs with the mean radius 1 m.
 std::string voussoir(double thickness) {
   const double half = std::numbers::pi / 34.0;
   std::string points;
@@ -141,14 +141,14 @@ TEST_CASE("gripper: lifts where 2 mu F >= m (g + a)") {
 }
 
 TEST_CASE("pile driving: the blow of a body 1e4 times as heavy as a bead keeps the momentum") {
-  const double v = std::sqrt(gravity), before = 90.0 * v / 100.0;  // after falling 0.5 m
+  const double v = std::sqrt(gravity), before = 90.0 * v / 100.0;  // after a fall of 0.5 m
   const double blow = std::sqrt(1.0 / gravity);
   World world("pile_driving", {"crowd.0.count=40"});
   world.run_to(0.335, [&] {
     const double both = 90.0 * world.velocity("hammer").z() + 10.0 * world.velocity("pile").z();
     REQUIRE(both == Approx(-90.0 * gravity * world.state.time).margin(1e-5));
     if (world.state.time < blow - world.scene.step) REQUIRE(world.velocity("pile").norm() < 1e-6);
-    // In the first step of the blow they close the gap that is left.
+    // In the first step of the blow the bodies close the remaining gap.
     if (world.state.time > blow + 2.0 * world.scene.step)
       REQUIRE(-world.velocity("pile").z() == Approx(0.9 * gravity * world.state.time));
   });
@@ -169,8 +169,8 @@ TEST_CASE("chain: a catenary whose ends carry seven links") {
   CHECK(left.x() == Approx(-right.x()).epsilon(0.03));
   const double sag = -world.centre_of_mass().z();
   CHECK(sag > 0.05);
-  // No link has got out: neighbours' centres are no farther than a link is long inside, 0.08 m,
-  // and a bar's room to either side, 0.01 m.
+  // No link has left its neighbour: their centres are at most the inner length of a link apart,
+  // 0.08 m, plus the room of a bar to either side, 0.01 m.
   const double most = std::hypot(0.08, 0.01) + 1e-4;
   const std::vector<std::string> links{"left",   "flat_0",    "upright_0", "flat_1", "upright_1",
                                        "flat_2", "upright_2", "flat_3",    "right"};
@@ -234,7 +234,7 @@ TEST_CASE("leaning wall: stands where tan(angle) <= min(mu, thickness/height)") 
 
 TEST_CASE("drum: what the wall gives the stones is their change of angular momentum") {
   World world("drum", {"scene.step=5e-4"});
-  // The impulse's moment about the axis; gravity's own goes with the centre of mass.
+  // The impulses' moment about the axis; gravity's own follows from the centre of mass.
   const auto spin = [&] {
     double sum = 0.0;
     for (size_t b = 1; b < 251; ++b) {
@@ -279,12 +279,12 @@ TEST_CASE("chute: along the period only the base and gravity push") {
       CHECK(pose.position.x() == Approx(0.08).margin(0.0801));
 }
 
-// What takes a minute or more, to be run by hand: step_test "[.worlds]". The lines that it writes
-// are the table of docs/theory/known_answers.md.
+// Tests of a minute or more, to be run by hand: step_test "[.worlds]". Their output is the table of
+// docs/theory/known_answers.md.
 
 namespace {
 
-/// Of a quantity that is watched after each step.
+/// The mean of a quantity that is observed after each step.
 struct Mean {
   double sum = 0.0;
   long count = 0;
@@ -364,7 +364,7 @@ TEST_CASE("silo: all beads arrive", "[.worlds]") {
   const auto left = [&] {
     int count = 0;
     for (const Pose& pose : world.state.pose) count += pose.position.z() > 0.3;
-    return count - 1;  // the silo itself
+    return count - 1;  // without the silo
   };
   double half = 0.0, most = 0.0;
   world.run_to(world.scene.duration, [&] {

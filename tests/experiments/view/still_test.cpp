@@ -16,7 +16,7 @@ std::uint32_t number_at(const std::string& bytes, size_t at) {
   return value;
 }
 
-/// Names and contents of a PNG's chunks; every check sum holds.
+/// The names and contents of a PNG's chunks, with their checksums checked.
 std::vector<std::pair<std::string, std::string>> chunks_of(const std::string& png) {
   CHECK(png.starts_with("\x89PNG\r\n\x1a\n"));
   std::vector<std::pair<std::string, std::string>> chunks;
@@ -29,7 +29,7 @@ std::vector<std::pair<std::string, std::string>> chunks_of(const std::string& pn
   return chunks;
 }
 
-/// A frame's pixels, from rows that are differences from the one above.
+/// The pixels of a frame, from rows that are stored as differences from the row above.
 struct Pixels {
   size_t width, height;
   std::vector<std::array<int, 3>> rgb = {};
@@ -75,7 +75,7 @@ StillOptions small_still(const std::string& way) {
   return options;
 }
 
-/// Cubes of 0.1 m, one 0.8 m above the other.
+/// Cubes of 0.1 m, each 0.8 m above the one below.
 ViewData column_of_cubes(size_t count) {
   Scene scene;
   BodySpec body;
@@ -96,7 +96,7 @@ TEST_CASE("a cube seen along an axis is a square in the middle, as large as the 
   size_t wide = 0, high = 0;
   for (size_t x = 0; x < 200; ++x) wide += !picture.is_paper(x, 80);
   for (size_t y = 0; y < 160; ++y) high += !picture.is_paper(100, y);
-  // the bodies' box has the cube's circumradius on every side; the near face is 0.05 m nearer
+  // The bodies' box has a margin of the circumradius of a cube; the near face is 0.05 m nearer.
   const double radius = 0.05 * 3.0, away = 3.4 * radius - 0.05;
   const double size = 0.1 / away * 80.0 / std::tan(14.0 * 3.14159265 / 180.0);
   CHECK(std::abs(static_cast<double>(wide) - size) <= 1.5);
@@ -115,7 +115,7 @@ TEST_CASE("all of a tall heap is in the picture") {
   CHECK(drawn > 100);
 }
 
-/// Three grains in the box of sample_system(): two beside each other, the third out of the way.
+/// Three grains in the box of sample_system(): two beside each other, the third away from both.
 MotionState three_grains(const MechanicalSystem& system) {
   MotionState state = sample_state(system, 0);
   state.pose[0].position = {0.15, 0.3, 0.25};
@@ -127,7 +127,7 @@ MotionState three_grains(const MechanicalSystem& system) {
 TEST_CASE("several frames are an animated PNG, in which the driven wall moves") {
   const MechanicalSystem system = sample_system();
   MotionState before = three_grains(system);
-  before.pose[0].position = {0.1, 0.1, 0.1};  // in the corners: all of the box is seen
+  before.pose[0].position = {0.1, 0.1, 0.1};  // in corners, to show the whole box
   before.pose[1].position = {0.5, 0.5, 0.4};
   MotionState after = before;
   after.pose[6].position.x() -= 0.2;
@@ -141,7 +141,7 @@ TEST_CASE("several frames are an animated PNG, in which the driven wall moves") 
     names += name + ' ';
     if (name != "IDAT" && name != "fdAT") continue;
     const Pixels picture(name == "IDAT" ? content : content.substr(4), 200, 160);
-    // blue is the wall alone; x goes to the left: the first column is its near edge
+    // Only the wall is blue. x points to the left: the first blue column is the wall's near edge.
     for (size_t x = 0; x < 200; ++x) {
       const auto& [r, g, b] = picture.at(x, 80);
       if (b < r + 25) continue;
@@ -151,12 +151,12 @@ TEST_CASE("several frames are an animated PNG, in which the driven wall moves") 
   }
   CHECK(names == "IHDR acTL fcTL IDAT fcTL fdAT IEND ");
   CHECK((number_at(chunks[1].second, 0) == 2 && number_at(chunks[1].second, 4) == 0));
-  // sequence numbers run through fcTL and fdAT together; a tenth of a second each
+  // Sequence numbers count fcTL and fdAT together. Each frame lasts a tenth of a second.
   CHECK((number_at(chunks[2].second, 0) == 0 && number_at(chunks[4].second, 0) == 1));
   CHECK(number_at(chunks[5].second, 0) == 2);
   CHECK(chunks[2].second.substr(20, 4) == std::string("\0\x64\3\xe8", 4));
   REQUIRE(edges.size() == 2);
-  // seen from 1.7 diagonals away, the near edge is half the box's depth nearer
+  // The view is from 1.7 diagonals away, and the near edge is half the box's depth nearer.
   Eigen::AlignedBox3d box(Vec3::Zero(), Vec3(0.6, 0.6, 0.5));
   const double away = 1.7 * box.diagonal().norm() - 0.3;
   CHECK(std::abs(edges[1] - edges[0] - 0.2 / away * 80.0 / std::tan(14.0 * 3.14159265 / 180.0)) <

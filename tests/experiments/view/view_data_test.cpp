@@ -40,7 +40,7 @@ TEST_CASE("a driven wall is known and has its curves, in mm") {
   const TemporaryFolder folder;
   RunData nothing;
   nothing.folder = folder.path();
-  CHECK_FALSE(view_of_run(nothing));  // no poses are stored there
+  CHECK_FALSE(view_of_run(nothing));  // there are no poses
   const RunData run = finished_run(folder, "empty_driven_wall", {"scene.duration=0.05"});
   const auto view = view_of_run(run);
   REQUIRE(view);
@@ -51,7 +51,7 @@ TEST_CASE("a driven wall is known and has its curves, in mm") {
   CHECK(series_of(*view, "f"));
   CHECK(view->series_time.size() == x->values.size());
   CHECK(x->values.back() == 1e3 * run.steps.back().wall_x);
-  // and the frames agree with the curve: the wall stands at its start - normal x
+  // The frames agree with the curve: the wall stands at its start - normal x.
   const Vec3 way = view->frames.back().pose[wall].position - view->frames[0].pose[wall].position;
   CHECK(std::abs(way.norm() - std::abs(run.steps.back().wall_x)) < 1e-12);
 }
@@ -67,7 +67,7 @@ TEST_CASE("bodies without a driven wall have the energy's curve, and forces wher
   CHECK_FALSE(view->contacts(view->frames.size() - 1).empty());
   CHECK_THROWS_AS(view->contacts(view->frames.size()), Error);
   CHECK(view->system.friction > 0.0);
-  fs::remove(folder.path() / "run" / "record.h5");  // as of a run that still goes on
+  fs::remove(folder.path() / "run" / "record.h5");  // as while a run goes on
   CHECK(view_of_run(read_run_data(folder.path() / "run"))->has_forces_later);
   CHECK_FALSE(view_of_run(finished_run(other, "incline", {"scene.duration=0.03"}))->contacts);
 }
@@ -155,7 +155,7 @@ TEST_CASE("a problem alone knows where its bodies are: there where the run has t
       REQUIRE(alone.system.bodies[b].is_wall() == in_run.system.bodies[o].is_wall());
       if (alone.system.bodies[b].is_wall()) continue;
       CHECK(alone.system.bodies[b].mass == Approx(in_run.system.bodies[o].mass));
-      // the contact point is a corner of the hull, or inside
+      // The contact point is a corner of the hull, or inside.
       CHECK(alone.system.bodies[b].shape.polyhedron->circumradius() >
             (mine.position.cast<double>() - alone.frames[0].pose[b].position).norm() - 1e-6);
     }

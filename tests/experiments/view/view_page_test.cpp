@@ -8,7 +8,7 @@
 namespace ballast {
 namespace {
 
-/// Three grains in a box, `frames` of which none resembles the next; every contact is made up.
+/// Three grains in a box, in `frames` frames that are all different; the contacts are made up.
 ViewData sample_view(size_t frames) {
   ViewData view;
   view.title = "a </script> in words";
@@ -30,7 +30,7 @@ ViewData sample_view(size_t frames) {
   return view;
 }
 
-/// The way back from a history's bytes, as obvious as can be: the twin of
+/// Decodes the bytes of a history in the simplest way, as the twin of
 /// experiments/page/replay/data.js.
 template <class Word>
 std::vector<Word> unpacked(const std::string& bytes, size_t columns, int order) {
@@ -105,7 +105,7 @@ TEST_CASE("shapes, walls, contacts and curves are in the head or in a part of it
   CHECK(part(replay, "walls").size() == 4 * 6 * 2 * 6);
   CHECK(part(replay, "series").size() == 4 * 2 * 2);
   CHECK(part(replay, "grains").size() == 4 * 2 * 3);
-  // a is a grain: the second contact is turned round. It is a quarter as strong: half the root
+  // Body a is a grain: the second contact is turned round. A quarter of the force: half the root.
   CHECK(head["contact_counts"] == nlohmann::json({2, 2}));
   CHECK(head["largest_force"] == 4.0);
   CHECK(part(replay, "contact_bodies").substr(0, 8) == std::string("\0\0\0\0\1\3\1\3", 8));
@@ -118,14 +118,14 @@ TEST_CASE("a page knows the period, how often each grain has gone round, and all
   ViewData view = sample_view(40);
   CHECK_FALSE(nlohmann::json::parse(pack_view(view).head).contains("period"));
   view.system.period.vector = Vec3(0.8, 0.6, 0.0);
-  // the first goes on, the second back, the third across
+  // The first grain moves forwards, the second back, the third across.
   const Vec3 ways[] = {{0.3, 0.0, 0.0}, {0.0, -0.5, 0.0}, {-0.6, 0.8, 0.0}};
   for (size_t f = 0; f < 40; ++f)
     for (size_t g = 0; g < 3; ++g)
       view.frames[f].pose[g].position =
           view.system.period.wrapped(0.1 * Vec3::Ones() + static_cast<double>(f) * ways[g]);
   view.contacts = [frames = view.frames](size_t f) {
-    const Vec3 place = frames[f].pose[0].position + Vec3(0.81, 0.6, 0.0);  // one period on
+    const Vec3 place = frames[f].pose[0].position + Vec3(0.81, 0.6, 0.0);  // one period farther
     return std::vector<FrameContact>{
         {0, 1, place.cast<float>(), Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitX()}};
   };
@@ -141,7 +141,7 @@ TEST_CASE("a page knows the period, how often each grain has gone round, and all
     CHECK(laps[3 * frames - 3] == std::floor(0.14 + 39 * 0.24));
     CHECK(static_cast<std::int16_t>(laps[3 * frames - 2]) == std::floor(0.14 - 39 * 0.3));
     CHECK(laps[3 * frames - 1] == 0);
-    // none is left out, and each is where the grain is
+    // No contact is left out, and each is at its grain.
     for (const auto& count : head["contact_counts"]) CHECK(count == 1);
     const double reach = 1.02 * view.system.bodies[0].shape.polyhedron->circumradius();
     CHECK(part(replay, "contact_places")[0] ==
@@ -155,7 +155,7 @@ TEST_CASE("before the first step no forces are known: the next frame's stand for
     return nlohmann::json::parse(pack_view(of).head)["contact_frames"];
   };
   CHECK(frames_of(view) == nlohmann::json({0, 1, 2}));
-  // in the last, bodies are in flight: that is known
+  // In the last frame bodies fly, and an empty list of contacts is right.
   view.contacts = [known = view.contacts](size_t f) {
     return f == 1 ? known(f) : std::vector<FrameContact>{};
   };

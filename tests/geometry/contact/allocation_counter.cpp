@@ -4,14 +4,14 @@
 #include <cstdlib>
 #include <new>
 
-// In a file of its own, so that no call is inlined and the compiler sees new and delete, not malloc
-// and free.
+// These operators have a file of their own, so that no call is inlined and the compiler sees new
+// and delete, not malloc and free.
 namespace {
 std::atomic<long> allocations{0};
 }
 
-// AddressSanitizer has operators of its own, which it checks against each other: there nothing is
-// counted.
+// AddressSanitizer has operators of its own, which it checks against each other: nothing is counted
+// under it.
 #if !defined(__SANITIZE_ADDRESS__)
 void* operator new(std::size_t size) {
   ++allocations;

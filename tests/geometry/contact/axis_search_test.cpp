@@ -43,8 +43,8 @@ TEST_CASE("the separation is the oracle's, over all placements") {
       SeparatingAxis axis;
       search.find(c.pair(), 1e9, hint, axis);
       const BruteForce oracle = brute_force(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a);
-      // apart, cross products that are no facets may see a larger gap, up to the distance;
-      // overlapping, none does
+      // For separated bodies, cross products that are no facets may give a larger gap, up to the
+      // distance. For overlapping bodies none does.
       double error = std::abs(axis.separation - oracle.facets);
       if (oracle.all <= 0.0) error = std::max(error, std::abs(axis.separation - oracle.all));
       overlapping += oracle.all <= 0.0;
@@ -71,7 +71,7 @@ TEST_CASE("the separation is the oracle's, over all placements") {
 
 TEST_CASE(
     "edges closer to parallel than the threshold cost no more than the sliver they leave out") {
-  // the facet left out is parallel_sine of an edge wide; an axis beside it is that much off
+  // The facet left out is parallel_sine of an edge wide; an axis beside it differs by that much.
   AxisSearch search(collision_pool());
   Random random(4);
   double worst = 0.0;
@@ -82,7 +82,7 @@ TEST_CASE(
     search.find(c.pair(), 1e9, hint, axis);
     const BruteForce oracle = brute_force(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a);
     if (oracle.all > 1e-7 * c.size())
-      continue;  // apart: cross products that are no facets see more
+      continue;  // separated: cross products that are no facets give more
     worst = std::max(worst, std::abs(oracle.all - axis.separation) / c.size());
   }
   CHECK(worst <= 1e-7);
@@ -152,7 +152,7 @@ TEST_CASE("a search that stops at the alert distance agrees with one that does n
     apart += is_separated(outcome);
     if (is_separated(outcome) != (full.separation > alert)) FAIL_CHECK("case " << i);
     if (is_separated(outcome)) {
-      // the feature handed back separates
+      // The separation along the returned feature exceeds the alert distance.
       Heights heights(256);
       const auto evaluated = evaluate_axis(c.pair(), hint, heights);
       if (!evaluated || !(evaluated->separation > alert))
@@ -168,13 +168,13 @@ TEST_CASE("equal axes: faces before edges, a before b, the smaller index") {
   AxisSearch cubes(shapes);
   AxisFeature hint;
   SeparatingAxis axis;
-  // two aligned cubes: the top face of a and the bottom face of b tie
+  // Two aligned cubes: the top face of a and the bottom face of b tie.
   cubes.find(ShapePair(shapes[0], shapes[0], {Mat3::Identity(), Vec3(0.1, 0.2, 1.9)}), 1.0, hint,
              axis);
   CHECK(axis.feature.kind == AxisKind::face_of_a);
   CHECK(axis.direction.isApprox(Vec3(0, 0, 1), 1e-15));
   CHECK(axis.separation == Approx(-0.1).epsilon(1e-14));
-  // concentric: all six faces of a tie with all of b
+  // Concentric cubes: all six faces of a tie with all of b.
   hint = {};
   cubes.find(ShapePair(shapes[0], shapes[0], {Mat3::Identity(), Vec3::Zero()}), 1.0, hint, axis);
   CHECK(axis.feature == AxisFeature{AxisKind::face_of_a, 0, -1});

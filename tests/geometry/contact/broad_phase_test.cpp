@@ -33,7 +33,7 @@ struct World {
     for (const Pose& pose : poses) result.push_back(pose.rotation.toRotationMatrix());
     return result;
   }
-  /// All pairs whose boxes, grown by their reaches, overlap.
+  /// All pairs of bodies whose boxes overlap when each is grown by its reach.
   std::set<std::pair<int, int>> required() const {
     const std::vector<Mat3> rotation = rotations();
     std::set<std::pair<int, int>> result;

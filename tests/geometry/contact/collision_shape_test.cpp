@@ -83,7 +83,7 @@ TEST_CASE("an edge between two faces in one plane bounds no depth") {
     triangles.push_back({c[0], c[2], c[3]});
   }
   const Polyhedron split({box.vertices().begin(), box.vertices().end()}, triangles);
-  // turned, so that coplanar only holds to rounding
+  // The box is turned, so that faces are coplanar only up to rounding.
   Random random(3);
   const Quat rotation = random_rotation(random);
   std::vector<Vec3> vertices;

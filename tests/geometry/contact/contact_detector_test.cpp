@@ -17,7 +17,7 @@ using namespace ballast::testing;
 
 namespace {
 
-/// Sorted, unique, with unit normals from a to b, and within reach.
+/// Checks that contacts are sorted, unique, within reach, and have unit normals from a to b.
 void check_list(const std::vector<ContactPoint>& contacts, const Packing& packing) {
   bool fits = true;
   for (size_t i = 0; i < contacts.size(); ++i) {
@@ -38,7 +38,7 @@ TEST_CASE("contacts depend on poses and reaches only: with and without cache, bi
   for (double step : {1e-6, 1e-5, 1e-4, 1e-3}) {
     Packing packing(70, step < 5e-4 ? 0.28 : 0.25, 1);
     if (step < 5e-4)
-      packing.relax();  // otherwise deep overlaps, many of them equal in depth along several axes
+      packing.relax();  // without it, deep overlaps, many equally deep along several axes
     DetectionSettings fresh;
     fresh.use_cache = false;
     ContactDetector cached(packing.shapes, {}), from_scratch(packing.shapes, fresh);
@@ -54,7 +54,7 @@ TEST_CASE("contacts depend on poses and reaches only: with and without cache, bi
       proved += cached.counters().proved_axes;
       searched += cached.counters().full_tests;
       if (!same_bits(contacts, expected)) FAIL_CHECK("step " << k << " of size " << step);
-      if (k % 30 == 0) {  // a detector that has never seen the past
+      if (k % 30 == 0) {  // compares with a new detector without any memory
         ContactDetector newborn(packing.shapes, {});
         newborn.detect(packing.poses, packing.reach, contacts);
         if (!same_bits(contacts, expected))
@@ -63,7 +63,7 @@ TEST_CASE("contacts depend on poses and reaches only: with and without cache, bi
       CHECK(contacts.size() > 50);
       check_list(contacts, packing);
     }
-    if (step < 5e-5) CHECK(proved > 5 * searched);  // the cache is worth something
+    if (step < 5e-5) CHECK(proved > 5 * searched);  // the cache saves most searches
   }
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("all pairs by brute force: who touches, and how deep") {
         const BruteForce oracle = brute_force(*shape_a.polyhedron, *shape_b.polyhedron, b_in_a);
         const double alert = packing.reach[a] + packing.reach[b], tolerance = 1e-12;
         if (oracle.facets > alert + tolerance || oracle.all > alert + tolerance) {
-          // a gap beyond reach along any axis; of bodies beside one another the facets' may be less
+          // The gap along some axis exceeds the reach; for bodies side by side facets give less.
           if (oracle.facets > alert + tolerance) CHECK(found == least.end());
           beside += oracle.facets <= alert + tolerance;
           ++apart;
@@ -230,7 +230,7 @@ TEST_CASE("what is not a number, or not as many, is refused by name") {
   reach = packing.reach;
   reach.pop_back();
   CHECK_THROWS_AS(detector.detect(packing.poses, reach, contacts), std::invalid_argument);
-  detector.detect(packing.poses, packing.reach, contacts);  // and goes on
+  detector.detect(packing.poses, packing.reach, contacts);  // works again
 
   ContactDetector nothing({}, {});
   nothing.detect({}, {}, contacts);
@@ -248,7 +248,7 @@ TEST_CASE("a box on a plane stands on four corners") {
   REQUIRE(contacts.size() == 4);
   Vec3 sum = Vec3::Zero();
   for (const ContactPoint& c : contacts) {
-    CHECK(c.body_a == 1);  // a plane is always a
+    CHECK(c.body_a == 1);  // a plane is always body a
     CHECK(c.body_b == 0);
     CHECK(c.gap == Approx(-1e-6).epsilon(1e-8));
     CHECK(c.normal == Vec3::UnitZ());
@@ -282,7 +282,7 @@ bool same_pair(const ContactPoint& p, const ContactPoint& q) {
   return p.body_a == q.body_a && p.body_b == q.body_b;
 }
 
-/// The header's words, point by point.
+/// The rule in the header's words, point by point.
 std::vector<Vec3> carried_by_definition(const std::vector<ContactPoint>& old_contacts,
                                         const std::vector<Vec3>& impulses,
                                         const std::vector<ContactPoint>& new_contacts) {
@@ -382,7 +382,7 @@ TEST_CASE("a renamed point hands over to its nearest newcomer") {
   const std::vector<ContactPoint> old_contacts{{0, 1, 10, n, Vec3(0, 0, 0), 0.0},
                                                {0, 1, 11, n, Vec3(1, 0, 0), 0.0}};
   const std::vector<ContactPoint> new_contacts{
-      {0, 1, 10, n, Vec3(1.1, 0, 0), 0.0},  // nearest, but known by name
+      {0, 1, 10, n, Vec3(1.1, 0, 0), 0.0},  // nearest, but matched by its feature
       {0, 1, 20, n, Vec3(5, 0, 0), 0.0},
       {0, 1, 21, n, Vec3(1.2, 0, 0), 0.0}};
   std::vector<Vec3> carried;
@@ -391,7 +391,7 @@ TEST_CASE("a renamed point hands over to its nearest newcomer") {
   CHECK(carried[0] == Vec3(1, 0, 0));
   CHECK(carried[1] == Vec3::Zero());
   CHECK(carried[2] == Vec3(0, 2, 0));
-  // all new points are known: the nearest of them takes it
+  // All new points are matched: the nearest of them takes the impulse.
   carry_impulses(old_contacts, std::vector<Vec3>{Vec3(1, 0, 0), Vec3(0, 2, 0)},
                  std::span(new_contacts).first(1), carried);
   CHECK(carried[0] == Vec3(1, 2, 0));

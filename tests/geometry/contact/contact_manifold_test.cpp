@@ -12,8 +12,8 @@ using namespace ballast::testing;
 
 namespace {
 
-/// Signed distance of a point of a's frame to the surface of body `which`, by its faces' planes
-/// (negative inside).
+/// Signed distance of a point in a's frame from the surface of body `which`, by the planes of its
+/// faces (negative inside).
 double height_over(const ShapePair& pair, int which, const Vec3& in_a) {
   const Vec3 p = which == 0 ? in_a : pair.other[1] * in_a;
   const AffineRows& faces = pair.shape[which]->faces();
@@ -36,7 +36,7 @@ std::vector<Vec3> positions(const Contact& contact) {
   return places;
 }
 
-/// Points of a plane in their order around the normal, seen from their centre.
+/// The points of a plane, sorted by their angle around the normal as seen from their centre.
 std::vector<Vec3> around(std::vector<Vec3> points, const Vec3& normal) {
   Vec3 centre = Vec3::Zero();
   for (const Vec3& p : points) centre += p / static_cast<double>(points.size());
@@ -48,7 +48,7 @@ std::vector<Vec3> around(std::vector<Vec3> points, const Vec3& normal) {
   return points;
 }
 
-/// Area of the convex hull of points on a plane, by the fan over all triangles of a sorted polygon.
+/// Area of the convex hull of points in a plane, as a fan of triangles over the sorted polygon.
 double hull_area(const std::vector<Vec3>& corners, const Vec3& normal) {
   const std::vector<Vec3> points = around(corners, normal);
   double area = 0.0;
@@ -98,8 +98,8 @@ TEST_CASE(
           near_surfaces &=
               found.axis.inside < 0.0 || (std::abs(over_a) <= small && std::abs(over_b) <= small);
         } else {
-          // on the incident body's surface always, within the reference face unless it is the
-          // touching vertex
+          // The point is always on the incident body's surface. It is within the reference face
+          // unless it is the touching vertex.
           const bool a_is_reference = found.axis.feature.kind == AxisKind::face_of_a;
           const double reference = a_is_reference ? over_a : over_b,
                        incident = a_is_reference ? over_b : over_a;
@@ -136,7 +136,7 @@ TEST_CASE("swapping the bodies mirrors the manifold") {
       FAIL_CHECK("case " << i << ": one of them is empty");
     if (found.points.empty()) continue;
     CHECK(std::abs(found.axis.separation - other.axis.separation) <= 1e-12 * c.size());
-    // equal axes: the rule prefers a, which is the other body now
+    // With equal axes the rule prefers body a, which is the other body here.
     if ((found.normal + c.b_in_a.rotation * other.normal).norm() > 1e-12 ||
         (found.axis.feature.kind == AxisKind::face_of_a) !=
             (other.axis.feature.kind == AxisKind::face_of_b)) {
@@ -144,10 +144,10 @@ TEST_CASE("swapping the bodies mirrors the manifold") {
       continue;
     }
     ++compared;
-    // corners on one another within the clipping thickness bear the incident body's name, which is
-    // the other one now
+    // Corners that coincide within the clipping thickness have the name from the incident body,
+    // which is the other body here.
     if (placement == Placement::offset_copy) continue;
-    // where nearly parallel lines are closest is known to rounding / sine
+    // The closest points of nearly parallel lines are exact to rounding / sine.
     const double small =
         placement == Placement::parallel_edges ? 1e-8 * c.size() : 1e-10 * c.size();
     bool same = found.points.size() == other.points.size();
@@ -173,7 +173,7 @@ TEST_CASE("stacked boxes stand on their corners") {
       const Contact found = contact_of(pair, 1e-6, 4);
       REQUIRE(found.points.size() == 4);
       CHECK(found.normal.isApprox(Vec3::UnitZ(), 1e-12));
-      // the upper box's centre of mass is above the points' hull
+      // The upper box's centre of mass is above the hull of the points.
       for (const ManifoldPoint& p : found.points) CHECK(p.gap == Approx(-1e-5).epsilon(1e-8));
       CHECK(hull_area(positions(found), Vec3::UnitZ()) > 0.02);
       const std::vector<Vec3> points = around(positions(found), Vec3::UnitZ());
@@ -219,7 +219,7 @@ namespace {
 
 constexpr double reach = 1e-4;
 
-/// The pair's best axis, if it does not separate the bodies by more than the reach distance.
+/// The best axis of the pair, unless it separates the bodies by more than the reach.
 std::optional<SeparatingAxis> best_axis(const ShapePair& pair) {
   static AxisSearch search(collision_pool());
   AxisFeature hint;
@@ -241,7 +241,7 @@ TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the
     const std::optional<SeparatingAxis> axis = best_axis(pair);
     if (!axis || axis->feature.kind == AxisKind::edges || axis->inside < 0.0) continue;
     const int reference = axis->feature.reference(), face = axis->feature.face();
-    // every face of the other body is cut, not only the one that the rule chooses
+    // Clips every face of the other body, not only the one that the rule chooses.
     int others = 0;
     const CollisionShape& other = *pair.shape[1 - reference];
     for (int f = 0; f < other.faces().count(); ++f) {
@@ -258,5 +258,5 @@ TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the
     if (others > 0) FAIL_CHECK("case " << i << ": " << others << " other points within reach");
   }
   CHECK(proved > 2000);
-  CHECK(proved > alone / 2);  // the proof is worth having
+  CHECK(proved > alone / 2);  // the proof often succeeds
 }

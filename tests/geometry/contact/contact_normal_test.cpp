@@ -1,5 +1,5 @@
-// The contact rule against its table of cases, and against slow twins: the separation along every
-// face normal and every cross product of edges, and the distance by all pairs of features.
+// The contact rule against its table of cases and against slow twins: the separation along every
+// face normal and every cross product of edges, and the distance over all pairs of features.
 
 #include "geometry/contact/contact_normal.hpp"
 
@@ -16,7 +16,7 @@ using namespace ballast::testing;
 
 namespace {
 
-/// Two places, one on each body, in a's frame.
+/// Two points, one on each body, in a's frame.
 struct Closest {
   double distance = 1e300;
   Vec3 on_a, on_b;
@@ -41,7 +41,7 @@ void take_segments(const Vec3& p, const Vec3& u, const Vec3& q, const Vec3& v, C
   closest.take(p + s * u, q + t * v);
 }
 
-/// The foot of a point on a face, if it lies within the face.
+/// The foot of the perpendicular from a point on a face, if it lies within the face.
 std::optional<Vec3> foot_on_face(const Polyhedron& body, int f, const Vec3& point) {
   const Vec3& n = body.normal(f);
   const Vec3 foot = point - (n.dot(point) - body.offset(f)) * n;
@@ -53,7 +53,7 @@ std::optional<Vec3> foot_on_face(const Polyhedron& body, int f, const Vec3& poin
   return foot;
 }
 
-/// The distance of two polyhedra that are apart: all vertices over all faces, all pairs of edges.
+/// The distance of two separated polyhedra, by all vertices over all faces and all pairs of edges.
 Closest closest_points(const Polyhedron& a, const Polyhedron& b, const RelativePose& b_in_a) {
   Closest closest;
   const RelativePose a_in_b = b_in_a.inverse();
@@ -82,7 +82,7 @@ const CollisionShape& unit_box() {
   return box;
 }
 
-/// The case table: every point has this gap and this height z, and the points stand at these x, y.
+/// Checks a case: every point has this gap and this height z, and the points have these x, y.
 void check_case(const Contact& contact, double gap, double z,
                 std::vector<std::pair<double, double>> places) {
   CHECK(contact.normal.isApprox(Vec3::UnitZ(), 1e-12));
@@ -106,13 +106,13 @@ TEST_CASE("case table: face on face, edge on face, vertex on face") {
     const ShapePair pair(unit_box(), unit_box(), {rotation, Vec3(0.5, 0.25, height - depth)});
     return contact_of(pair, 1e-4);
   };
-  // a box on a box: the corners of the common part
+  // A box on a box: the points are the corners of the common part.
   check_case(above(Mat3::Identity(), 2.0), -depth, 1.0 - 0.5 * depth,
              {{-0.5, -0.75}, {1.0, -0.75}, {1.0, 1.0}, {-0.5, 1.0}});
-  // a box on its edge, along y: both ends of the edge on the face
+  // A box on its edge, along y: the points are both ends of the edge on the face.
   check_case(above(turn(45, Vec3::UnitY()), 1.0 + s2), -depth, 1.0 - 0.5 * depth,
              {{0.5, -0.75}, {0.5, 1.0}});
-  // a box on its corner
+  // A box on its corner.
   const Mat3 on_corner = turned_onto(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
   const Contact vertex = above(on_corner, 1.0 + s3);
   check_case(vertex, -depth, 1.0 - 0.5 * depth, {{0.5, 0.25}});
@@ -123,7 +123,7 @@ TEST_CASE(
     "case table: seen from the other body, a face of b decides and the normal still leaves a") {
   const double depth = 1e-3;
   const Mat3 on_corner = turned_onto(Vec3(1, 1, 1), Vec3(0, 0, 1)).toRotationMatrix();
-  // a stands below b on its corner: a's frame is turned
+  // Body a stands on its corner below b: its frame is turned.
   const RelativePose b_in_a{on_corner.transpose(),
                             on_corner.transpose() * Vec3(0, 0, 1.0 + std::sqrt(3.0) - depth)};
   const Contact contact = contact_of(ShapePair(unit_box(), unit_box(), b_in_a), 1e-4);
@@ -146,12 +146,12 @@ TEST_CASE("case table: edges that cross, parallel edges") {
     for (ManifoldPoint& p : contact.points) p.position = on_edge * p.position;
     return contact;
   };
-  // the lower rod's edge runs along x through y = 0, the upper one's along y through x = 0.7
+  // The lower rod's edge runs along x through y = 0, the upper one's along y through x = 0.7.
   const Contact crossing =
       upright(turn(90, Vec3::UnitZ()) * on_edge, Vec3(0.7, 0.4, 2.0 * s2 - depth));
   CHECK(crossing.axis.feature.kind == AxisKind::edges);
   check_case(crossing, -depth, s2 - 0.5 * depth, {{0.7, 0.0}});
-  // both along x, one above the other: the cross product says nothing, a face separates as well
+  // Both edges along x, one above the other: the cross product is zero, a face separates as well.
   const Contact parallel = upright(on_edge, Vec3(1.0, 0.0, 2.0 * s2 - depth));
   CHECK(parallel.axis.feature.kind != AxisKind::edges);
   CHECK(parallel.points.size() >= 2);
@@ -159,8 +159,8 @@ TEST_CASE("case table: edges that cross, parallel edges") {
 }
 
 TEST_CASE("case table: flat edges touch at their crossing and at the common part's corners") {
-  // a's top rises towards +y, b's bottom sinks towards +x, both by an angle t: a's border along x
-  // and b's border along y cross, and the gap grows by tan t per metre away from either.
+  // a's top rises towards +y, b's bottom sinks towards +x, both by an angle t. The border of a
+  // along x and that of b along y cross; the gap grows by tan t per metre away from either.
   const double t = 1e-3, depth = 1e-4, border = std::cos(t) - std::sin(t);
   const Mat3 tilt_a = Eigen::AngleAxisd(t, Vec3::UnitX()).toRotationMatrix();
   const Mat3 tilt_b = Eigen::AngleAxisd(t, Vec3::UnitY()).toRotationMatrix();
@@ -217,7 +217,7 @@ TEST_CASE("bodies apart: the gap is the distance, the point midway between the c
   for (int i = 0; i < 4000; ++i) {
     const PairCase c = random_case(Placement::near_touching, random);
     const Contact contact = contact_of(c.pair(), 1e-3);
-    // where the nearest points lie inside the proven features, no other pair of places is nearer
+    // Where the nearest points lie inside the proven features, no other pair of points is nearer.
     if (contact.points.empty() || contact.axis.separation < 1e-7 || contact.axis.inside < 1e-7)
       continue;
     const Closest closest = closest_points(shape_pool()[c.a], shape_pool()[c.b], c.b_in_a);
@@ -228,7 +228,7 @@ TEST_CASE("bodies apart: the gap is the distance, the point midway between the c
     const double small = 1e-12 * c.size();
     if (std::abs(nearest->gap - closest.distance) > small)
       FAIL_CHECK("case " << i << ": gap " << nearest->gap << ", distance " << closest.distance);
-    if (contact.axis.clearance < 1e-4) continue;  // several points are as near
+    if (contact.axis.clearance < 1e-4) continue;  // several points are equally near
     if ((nearest->position - 0.5 * (closest.on_a + closest.on_b)).norm() > 1e-9 * c.size() ||
         (contact.normal - (closest.on_b - closest.on_a) / closest.distance).norm() > 1e-6)
       FAIL_CHECK("case " << i << ": another place than the closest points");

@@ -1,5 +1,5 @@
-// Bodies of several parts and worlds that repeat themselves, beside what they stand for: the same
-// parts as bodies of their own, and the same bodies copied out into the neighbouring periods.
+// Bodies of several parts against the same parts as bodies of their own, and periodic worlds
+// against the same bodies copied into the neighbouring periods.
 
 #include "geometry/contact/convex_elements.hpp"
 #include "geometry/contact/contact_detector.hpp"
@@ -10,7 +10,7 @@ using namespace ballast;
 
 namespace {
 
-/// What is known of a contact without the names of features, in an order of its own.
+/// The data of contacts without the names of features, sorted.
 using Seen = std::vector<std::array<double, 9>>;
 
 Seen seen(const std::vector<ContactPoint>& contacts, const std::function<int(int)>& body,
@@ -42,7 +42,7 @@ Vec3 random_place(Random& random, double size) {
 }  // namespace
 
 TEST_CASE("contacts of bodies of parts are those of the parts, but for parts of one body") {
-  // Each body is a bar with a cube on each end; alone they are three bodies.
+  // Each body is a bar with a cube on each end. The oracle has three bodies instead.
   const Pose ends[] = {{Vec3::Zero(), Quat::Identity()},
                        {Vec3(0.3, 0, 0.05), Quat(0.6, 0.8, 0, 0)},
                        {Vec3(-0.3, 0, 0), Quat(0.8, 0, 0.6, 0)}};
@@ -103,7 +103,7 @@ TEST_CASE("contacts in a world that repeats itself are those of bodies copied ou
     std::vector<ContactPoint> ours, theirs;
     detector.detect(poses, std::vector<double>(count, 0.01), ours);
     oracle.detect(copied, std::vector<double>(3 * count, 0.01), theirs);
-    // once each: with the first body of the pair, in the order of the copies, at home
+    // Keeps each contact once: the one whose lower copy is that in the middle period.
     std::erase_if(theirs, [&](const ContactPoint& c) {
       const int a = c.body_a / count, b = c.body_b / count;
       return std::min(a, b) != 1;
@@ -124,7 +124,7 @@ TEST_CASE("a pair keeps its keys when one of its bodies goes on into the next pe
   std::vector<Pose> poses{{Vec3(0.79, 0, 0), Quat::Identity()}, {Vec3(0.98, 0, 0), {1, 0, 0, 0}}};
   detector.detect(poses, std::vector<double>(2, 0.01), before);
   poses[0].position.x() += 0.03;
-  poses[1].position.x() += 0.03 - 1.0;  // 1.01, that is 0.01
+  poses[1].position.x() += 0.03 - 1.0;  // 1.01, which is 0.01 in the period
   detector.detect(poses, std::vector<double>(2, 0.01), after);
   REQUIRE(before.size() == 4);
   REQUIRE(after.size() == 4);

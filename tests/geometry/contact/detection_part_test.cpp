@@ -16,11 +16,11 @@ TEST_CASE("detection in parts finds the same contacts, bit by bit, and counts th
     WorkerTeam team;
     team.resize(3);
     threads.use_team(&team, 3);
-    many.use_team(nullptr, 200);  // more than bodies: some parts have nothing to do
+    many.use_team(nullptr, 200);  // more parts than bodies: some are empty
     std::vector<ContactPoint> expected, contacts;
     for (int k = 0; k < 60; ++k) {
       packing.move(step);
-      if (k == 20) threads.use_team(&team, 5);  // records move to other parts
+      if (k == 20) threads.use_team(&team, 5);  // pairs move to other parts
       whole.detect(packing.poses, packing.reach, expected);
       for (ContactDetector* detector : {&threads, &many}) {
         detector->detect(packing.poses, packing.reach, contacts);
@@ -31,7 +31,7 @@ TEST_CASE("detection in parts finds the same contacts, bit by bit, and counts th
         CHECK(b.candidate_pairs == a.candidate_pairs);
         CHECK(b.cached_separations == a.cached_separations);
         CHECK(b.proved_axes ==
-              a.proved_axes);  // what was remembered of pairs followed them to their new parts
+              a.proved_axes);  // the memory of pairs moved with them to their new parts
         CHECK(b.full_tests == a.full_tests);
         CHECK(b.manifolds == a.manifolds);
         CHECK(b.broad_phase_rebuilds == a.broad_phase_rebuilds);

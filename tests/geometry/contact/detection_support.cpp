@@ -41,7 +41,7 @@ std::vector<Polyhedron> make_pool() {
   return pool;
 }
 
-/// Points as columns x, y, z.
+/// Points, stored as columns of x, y and z.
 struct Cloud {
   using Column = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, 64, 1>;
   template <class Map>
@@ -63,7 +63,7 @@ struct Cloud {
   Column x, y, z;
 };
 
-/// In extended precision: for nearly parallel edges.
+/// Computed in extended precision, for nearly parallel edges.
 Vec3 unit_cross(const Vec3& u, const Vec3& v) {
   const LongVec n = u.cast<long double>().cross(v.cast<long double>());
   return (n / n.norm()).cast<double>();
@@ -217,7 +217,7 @@ PairCase edges_together(double angle, Random& random) {
              along_b = b.vertex(eb.head) - b.vertex(eb.tail);
   const Vec3 out_a = (a.normal(ea.left) + a.normal(ea.right)).normalized();
   const Vec3 out_b = (b.normal(eb.left) + b.normal(eb.right)).normalized();
-  // frames (edge, outward) of both onto each other, then a small turn around the outward direction
+  // Turns b's frame (edge, outward) onto a's, then by the angle about the outward direction.
   Mat3 frame_a, frame_b;
   frame_a << along_a.normalized(), out_a, along_a.normalized().cross(out_a);
   frame_b << along_b.normalized(), -out_b, along_b.normalized().cross(-out_b);

@@ -1,5 +1,5 @@
 #pragma once
-// Shapes, pair configurations and the slow obvious oracle that contact detection is tested against.
+// Shapes, pair configurations and the slow, simple oracle for the tests of contact detection.
 
 #include <string>
 #include <vector>
@@ -12,18 +12,18 @@ namespace ballast::testing {
 /// Tetrahedra, boxes (also as 12 triangles), prisms, plates, needles, grains, polyhedral spheres;
 /// sizes 1 to 10 cm.
 const std::vector<Polyhedron>& shape_pool();
-/// The same shapes laid out for detection, in the same order.
+/// The same shapes in the form for detection, in the same order.
 const std::vector<CollisionShape>& collision_pool();
-/// A face of the shape with its loop.
+/// The table of a face of the shape, with its loop.
 CollisionShape::FaceTable face_table(const CollisionShape& shape, int face);
 
-/// A rotation that brings the direction `from` to the direction `to`, by the least angle. Eigen's
-/// FromTwoVectors() takes a singular value decomposition, and compilers seven seconds for it.
+/// The rotation by the least angle that turns the direction `from` to `to`. Eigen's
+/// FromTwoVectors() uses a singular value decomposition, which takes compilers seven seconds.
 Quat turned_onto(const Vec3& from, const Vec3& to);
 
 Polyhedron prism(int sides, double radius, double height);
 
-/// A pair's best axis, and its normal and points; without points when the bodies are more than
+/// The best axis of a pair, its normal and its points; no points if the bodies are more than
 /// `alert` apart.
 struct Contact {
   SeparatingAxis axis;
@@ -32,8 +32,8 @@ struct Contact {
 };
 Contact contact_of(const ShapePair& pair, double alert, int max_points = 1000);
 
-/// Separation of two polyhedra by all face normals and all cross products of edges (but parallel
-/// ones), each with the full support functions of both.
+/// Separation of two polyhedra along all face normals and all cross products of edges (except
+/// parallel ones), each with the full support functions of both.
 struct BruteForce {
   double facets;  ///< largest over face normals and those cross products at which both edges are
                   ///< supports
@@ -43,7 +43,7 @@ struct BruteForce {
 };
 BruteForce brute_force(const Polyhedron& a, const Polyhedron& b, const RelativePose& b_in_a);
 
-/// How a pair of bodies is placed, one kind for each trouble.
+/// The placement of a pair of bodies: one for each kind of difficulty.
 enum class Placement {
   near_touching,   ///< random orientation, gap +-1e-12 .. +-1e-3 m or about zero
   deep,            ///< centres close
@@ -67,10 +67,10 @@ struct PairCase {
   double size() const { return pair().size(); }
 };
 PairCase random_case(Placement placement, Random& random);
-/// An edge of each at this angle [rad], shapes and gap at random.
+/// A pair with an edge of each at this angle [rad]; shapes and gap are random.
 PairCase edges_together(double angle, Random& random);
 
-/// A length of 10^-low .. 10^-high, either sign, or sometimes zero.
+/// A random number of size 10^-low .. 10^-high, of either sign, or sometimes zero.
 double random_scale(Random& random, double low, double high);
 
 }  // namespace ballast::testing

@@ -11,10 +11,10 @@ using namespace ballast::testing;
 
 namespace {
 
-/// Corners of the clipped face by definition, each kind on its own: corners of the incident face
-/// inside all sides; crossings of its edges with sides; corners of the reference face, dropped on
-/// the incident plane, inside the incident face. `clear`: nothing is close to a boundary, so that
-/// all methods must agree on what is in.
+/// Corners of the clipped face by definition, each kind by itself: corners of the incident face
+/// inside all sides; crossings of its edges with sides; corners of the reference face, projected to
+/// the incident plane, inside the incident face. `clear`: no point is close to a boundary, so that
+/// all methods must agree.
 std::map<std::uint64_t, Vec3> clipped_by_definition(const ShapePair& pair, int reference, int face,
                                                     int incident, bool& clear) {
   const CollisionShape &own = *pair.shape[reference], &other = *pair.shape[1 - reference];
@@ -82,7 +82,7 @@ TEST_CASE("clipping finds the corners that the definition names, under the same 
     const ShapePair pair = c.pair();
     const int reference = i / 2 % 2;
     const CollisionShape &own = *pair.shape[reference], &other = *pair.shape[1 - reference];
-    // any face against that of the other body which opposes it most
+    // Takes any face of one body and the face of the other that is most opposed to it.
     const int face = random.below(own.faces().count());
     const Vec3 direction = pair.other[reference].rotation.transpose() * own.faces().xyz(face);
     int incident = 0;

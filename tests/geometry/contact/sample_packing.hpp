@@ -8,7 +8,7 @@
 
 namespace ballast::testing {
 
-/// Grains of the pool thrown into a box of six planes, one of them driven; a few are fixed.
+/// Grains of the pool thrown into a box of six planes, one of them driven. A few grains are fixed.
 struct Packing {
   Packing(int count, double side, std::uint64_t seed) : random(seed) {
     const int pool = static_cast<int>(shape_pool().size());
@@ -30,15 +30,15 @@ struct Packing {
       pose.rotation = random_rotation(random);
       poses.push_back(pose);
     }
-    std::swap(shapes[3], shapes[count]);  // one wall among the grains
+    std::swap(shapes[3], shapes[count]);  // a wall between the grains
     std::swap(poses[3], poses[count]);
     for (size_t i = 0; i < shapes.size(); ++i) {
       velocity.push_back(random_direction(random));
       reach.push_back(1e-5 + 1e-4 * random.uniform());
     }
   }
-  /// Moves bodies apart along their contacts until they hardly overlap: a packing as a simulation
-  /// has it.
+  /// Moves bodies apart along their contacts until they hardly overlap, as in the packing of a
+  /// simulation.
   void relax() {
     ContactDetector detector(shapes, {});
     std::vector<ContactPoint> contacts;

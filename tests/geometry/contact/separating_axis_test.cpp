@@ -13,7 +13,7 @@ using namespace ballast::testing;
 
 namespace {
 
-/// Every face of either body and every pair of edges.
+/// Every face of both bodies, and every pair of edges.
 std::vector<AxisFeature> all_features(const ShapePair& pair) {
   std::vector<AxisFeature> features;
   const CollisionShape &a = *pair.shape[0], &b = *pair.shape[1];
@@ -36,7 +36,7 @@ int top_face(const CollisionShape& shape) {
 TEST_CASE("a face's separation is the gap to the other body's nearest vertex") {
   const CollisionShape box(make_box(Vec3(2, 2, 2)));
   Heights heights(512);
-  // a cube on its corner above the top face, off centre
+  // A cube on its corner above the top face, off centre.
   const Mat3 corner_down = turned_onto(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
   const ShapePair pair(box, box, {corner_down, Vec3(0.3, -0.2, 1.0 + std::sqrt(3.0) - 0.01)});
   const auto axis = evaluate_axis(pair, {AxisKind::face_of_a, top_face(box), -1}, heights);
@@ -50,7 +50,7 @@ TEST_CASE("a face's separation is the gap to the other body's nearest vertex") {
 }
 
 TEST_CASE("crossed edges: the gap along their common normal") {
-  // two square rods turned by 45 degrees around their axes, edge upon edge, crossing at 60 degrees
+  // Two square rods, turned by 45 degrees about their axes, cross edge over edge at 60 degrees.
   const CollisionShape rod(make_box(Vec3(10, 1, 1)));
   const Mat3 on_edge = Eigen::AngleAxisd(0.25 * std::acos(-1.0), Vec3::UnitX()).toRotationMatrix();
   const Mat3 cross = Eigen::AngleAxisd(std::acos(0.5), Vec3::UnitZ()).toRotationMatrix();
@@ -71,7 +71,7 @@ TEST_CASE("crossed edges: the gap along their common normal") {
   CHECK(is_proved_best(pair, face_isolation(pair, found[0].feature), found[0]));
   CHECK(found[0].at_a == Approx(0.5));
   CHECK(found[0].at_b == Approx(0.5));
-  // the nearest other vertices: the rods' side edges, half a diagonal below
+  // The nearest other vertices are on the rods' side edges, half a diagonal below.
   CHECK(found[0].clearance > 0.1);
   CHECK(found[0].clearance <= std::sqrt(0.5));
 }
@@ -90,7 +90,7 @@ TEST_CASE("two edges form a facet exactly if both are supports along their commo
         const Vec3 along_b = c.b_in_a.rotation * b.edge(eb).along;
         const Vec3 cross = a.edge(ea).along.cross(along_b);
         if (cross.norm() < 1e-3 * a.edge(ea).along.norm() * along_b.norm()) continue;
-        double worst_margin = -1.0;  // how well supported, over the two directions
+        double worst_margin = -1.0;  // the larger support margin of the two directions
         for (double sign : {1.0, -1.0}) {
           const Vec3 n = sign * cross.normalized(), n_b = -(c.b_in_a.rotation.transpose() * n);
           const double lacks_a =

@@ -1,4 +1,4 @@
-// The memory of a touching pair against the shapes' tables.
+// The memory of a touching pair against the tables of its shapes.
 
 #include "geometry/contact/touching_pair.hpp"
 #include "geometry/contact/axis_search.hpp"
@@ -14,8 +14,8 @@ namespace {
 constexpr double alert = 1e-4;
 constexpr int all_points = 1 << 20;
 
-/// A small turn and shift, of 10^-7 .. 10^-3 rad and as many metres. `chord` bounds the turn as the
-/// detector does.
+/// Turns the pose by 10^-7 .. 10^-3 rad and shifts it by as many metres. `chord` bounds the turn as
+/// in the detector.
 RelativePose jiggled(const RelativePose& pose, Random& random, double& chord) {
   const double angle = std::abs(random_scale(random, 7.0, 3.0));
   const Vec3 axis = random_rotation(random) * Vec3::UnitX(),

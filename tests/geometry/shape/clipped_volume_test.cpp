@@ -32,7 +32,7 @@ std::vector<HalfSpace> half_spaces(const Polyhedron& polyhedron, const Pose& pos
   return planes;
 }
 
-/// Slow and obvious: all points where three planes meet and no plane is exceeded, then their hull.
+/// Slow and simple: the hull of all points where three planes meet and no plane is exceeded.
 double hull_volume(const std::vector<HalfSpace>& planes, double size) {
   std::vector<Vec3> points;
   for (size_t i = 0; i < planes.size(); ++i)
@@ -75,17 +75,17 @@ TEST_CASE("a box in a box: products of overlaps") {
   CHECK(inside(Vec3::Zero(), Vec3(0, -9, -9), Vec3(9, 9, 9)) == Approx(4.0).epsilon(1e-14));
   CHECK(inside(Vec3::Zero(), Vec3(0, 0, -9), Vec3(9, 9, 0.5)) == Approx(1.5).epsilon(1e-14));
   CHECK(inside(Vec3(5, 0, 0), Vec3(4.5, -9, -9), Vec3(5.25, 9, 9)) == Approx(3.0).epsilon(1e-14));
-  // the small box lies wholly in the cube: all six planes cut
+  // The small box lies inside the cube: all six planes cut.
   CHECK(inside(Vec3(1, 2, 3), Vec3(0.5, 1.5, 2.5), Vec3(1, 2.25, 3.5)) ==
         Approx(0.375).epsilon(1e-13));
-  // planes that touch faces of the cube
+  // The planes touch faces of the cube.
   CHECK(inside(Vec3::Zero(), Vec3(-1, -1, -1), Vec3(1, 1, 1)) == 8.0);
   CHECK(inside(Vec3::Zero(), Vec3(1, -9, -9), Vec3(9, 9, 9)) == 0.0);
   CHECK(inside(Vec3::Zero(), Vec3(-1, -1, -1), Vec3(1, 1, 0)) == Approx(4.0).epsilon(1e-14));
-  // far away, and within the reach of the bounding sphere only
+  // Far away, and within the reach of the bounding sphere only.
   CHECK(inside(Vec3(100, 0, 0), Vec3(-1, -1, -1), Vec3(1, 1, 1)) == 0.0);
   CHECK(inside(Vec3(2.5, 0, 0), Vec3(-1, -1, -1), Vec3(1, 1, 1)) == 0.0);
-  // a box without thickness
+  // A box without thickness.
   CHECK(inside(Vec3::Zero(), Vec3(0, -9, -9), Vec3(0, 9, 9)) == Approx(0.0).margin(1e-15));
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("a cube on its edge, cut through vertices") {
         Approx(0.5).epsilon(1e-14));
   CHECK(clipper.volume(cube, pose, Vec3(3, 4, 5), Vec3(9, 9, 9), 1.0) ==
         Approx(0.125).epsilon(1e-14));
-  // the corner prism beyond x = 3 + d/2: a right triangle of height d/2 and base d
+  // The corner prism beyond x = 3 + d/2: a right triangle of height d/2 and base d.
   CHECK(clipper.volume(cube, pose, Vec3(3 + d / 2, 0, 0), Vec3(9, 9, 9), 1.0) ==
         Approx(d * d / 4).epsilon(1e-13));
 }
@@ -109,7 +109,7 @@ TEST_CASE("grains against the hull of all points where three planes meet") {
   int by_cuts[7] = {};
   for (int trial = 0; trial < 60; ++trial) {
     GrainShapeSettings small;
-    small.max_vertices = 20;  // the oracle is cubic
+    small.max_vertices = 20;  // the cost of the oracle is cubic
     const PrincipalShape grain = make_grain(small, 1.0, 100 + trial);
     const Pose pose{uniform_point(random, -1, 1), random_rotation(random)};
     Vec3 lo, hi;

@@ -1,4 +1,4 @@
-// Bodies of parts beside the solid that they fill, and walls from polygons.
+// Bodies of parts against the solid that they fill, and walls from polygons.
 
 #include "geometry/shape/compound.hpp"
 #include "platform/random.hpp"
@@ -34,7 +34,7 @@ TEST_CASE("a box cut into eight pieces has the whole box's mass properties") {
   std::sort(moments.begin(), moments.end());
   for (int k = 0; k < 3; ++k) CHECK(compound.inertia[k] == Approx(moments[k]));
   CHECK(compound.hull->circumradius() == Approx(0.5 * size.norm()));
-  // The parts are where they were.
+  // The parts did not move.
   for (size_t k = 0; k < 8; ++k)
     for (const Vec3& corner : pieces[k].shape->vertices()) {
       const Vec3 ours = compound.pose * (compound.parts[k].pose * corner);

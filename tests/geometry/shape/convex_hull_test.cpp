@@ -16,12 +16,12 @@ using namespace ballast;
 
 namespace {
 
-/// Why the points have no hull; empty when they have one.
+/// The reason why the points have no hull; empty if they have one.
 std::string defect(const std::vector<Vec3>& points) {
   return complaint<InvalidPolyhedron>([&] { convex_hull(points); });
 }
 
-/// Vertex sets of the faces, by definition: planes through three points with all others on one
+/// The vertex sets of the faces by definition: planes through three points with all others on one
 /// side.
 std::set<std::set<int>> faces_by_definition(const std::vector<Vec3>& points) {
   const int n = static_cast<int>(points.size());
@@ -52,7 +52,7 @@ std::set<std::set<int>> faces_of(const Polyhedron& p) {
   return faces;
 }
 
-/// How far a point sticks out of the polyhedron at most, over its circumradius.
+/// The largest height of a point above the polyhedron's faces, over the circumradius.
 double worst_outside(const Polyhedron& hull, const std::vector<Vec3>& points) {
   double worst = 0.0;
   for (const Vec3& p : points)
@@ -97,7 +97,7 @@ TEST_CASE("faces agree with the definition of a hull") {
   Random random(2);
   for (int trial = 0; trial < 60; ++trial) {
     std::vector<Vec3> points;
-    // every third set from a lattice: many coplanar points
+    // Every third set is from a lattice, with many coplanar points.
     for (int i = 0; i < 14; ++i)
       points.push_back(trial % 3 ? random_direction(random)
                                  : Vec3(random.below(3), random.below(3), random.below(3)));
@@ -108,7 +108,7 @@ TEST_CASE("faces agree with the definition of a hull") {
       points.erase(std::unique(points.begin(), points.end()), points.end());
     }
     const Polyhedron hull = convex_hull(points);
-    // the definition on the hull's own vertices, then nothing outside it
+    // The definition holds for the hull's vertices, and no point is outside the hull.
     CHECK(faces_of(hull) == faces_by_definition({hull.vertices().begin(), hull.vertices().end()}));
     CHECK(worst_outside(hull, points) < 1e-12);
     if (trial % 3) CHECK(hull.vertex_count() == 14);
@@ -186,8 +186,8 @@ TEST_CASE("sets without a hull say why, and qhull stays silent") {
       {{{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 2}, {3, 1, 4}}, "lie in one plane"},
       {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-12}}, "lie in one plane"},
       {{{0, 0, 0}, {1e200, 0, 0}, {0, 1, 0}, {1, 1, 1}}, "overflows"}};
-  // points along the diagonals of a cube with noise of qhull's merging radius, at seeds where qhull
-  // 2020.2 gives up and wants to say so; the second attempt resolves the points
+  // Points on the diagonals of a cube, with noise of qhull's merging radius, for seeds with which
+  // qhull 2020.2 gives up and wants to print it. The second attempt succeeds.
   for (const int seed : {5459, 5625, 9887, 53207}) {
     Random random(seed);
     const double noise = random.uniform(4e-10, 1e-9);
@@ -211,7 +211,7 @@ TEST_CASE("sets without a hull say why, and qhull stays silent") {
 
 namespace {
 
-/// The points turned anyhow, and each number as single precision has it.
+/// The points turned by a random rotation, with each number rounded to single precision.
 std::vector<Vec3> rounded(const std::vector<Vec3>& points, Random& random) {
   const Quat turn = random_rotation(random);
   std::vector<Vec3> result;
@@ -219,7 +219,7 @@ std::vector<Vec3> rounded(const std::vector<Vec3>& points, Random& random) {
   return result;
 }
 
-/// With a grid of n x n quads on each face.
+/// A cube with a grid of n x n quads on each face.
 std::vector<Vec3> cube_grid(int n) {
   std::vector<Vec3> points;
   for (int i = 0; i <= n; ++i)
@@ -229,7 +229,7 @@ std::vector<Vec3> cube_grid(int n) {
   return points;
 }
 
-/// Middles of a cube's edges: squares and triangles, four at each corner.
+/// The middles of a cube's edges: faces are squares and triangles, four at each corner.
 std::vector<Vec3> cuboctahedron() {
   std::vector<Vec3> points;
   for (const double a : {-1.0, 1.0})
@@ -251,7 +251,7 @@ std::vector<Vec3> spiral(int count, const Vec3& half_axes) {
   return points;
 }
 
-/// Corners of the solid that the planes p . x = 1 of all points p bound.
+/// The corners of the solid that is bounded by the planes p . x = 1 of all points p.
 std::vector<Vec3> polar_dual(const std::vector<Vec3>& points) {
   const Polyhedron hull = convex_hull(points);
   std::vector<Vec3> corners;
@@ -278,7 +278,7 @@ TEST_CASE("faces that rounding has broken are whole again") {
   Random random(3);
   for (int trial = 0; trial < 20; ++trial) {
     const std::vector<Vec3> cube = rounded(cube_grid(1), random);
-    if (trial == 0) CHECK(convex_hull(cube).face_count() > 6);  // what rounding does
+    if (trial == 0) CHECK(convex_hull(cube).face_count() > 6);  // rounding breaks the faces
     check_faces(cube, 8, 6);
     check_faces(rounded(cube_grid(7), random), 8, 6);
     check_faces(rounded(cuboctahedron(), random), 12, 14);
@@ -303,13 +303,13 @@ TEST_CASE("faces of a solid of many faces are whole again, a smooth surface is l
   // Rounding breaks nearly every hexagon.
   CHECK(convex_hull(corners).face_count() > 2 * faces - 200);
   CHECK(rounded_hull(corners, 1e-6).face_count() == faces);
-  // Strips of triangles that are nearly flat, and neighbours of strips.
+  // A hull with strips of nearly flat triangles, some beside each other.
   const std::vector<Vec3> smooth = spiral(2000, Vec3(1.0, 0.8, 0.6));
   CHECK(rounded_hull(smooth, 5e-5).face_count() == convex_hull(smooth).face_count());
 }
 
 TEST_CASE("triangles give way: a corner moves to larger faces alone") {
-  // A square antiprism with a pyramid on one of its squares: only triangles meet at the tip.
+  // A square antiprism with a pyramid on one square: only triangles meet at its tip.
   Random random(6);
   for (int trial = 0; trial < 20; ++trial) {
     std::vector<Vec3> points{Vec3(0.0, 0.0, 1.1)};
@@ -322,7 +322,7 @@ TEST_CASE("triangles give way: a corner moves to larger faces alone") {
     REQUIRE(solid.vertex_count() == 9);
     CHECK(solid.face_count() == 13);
     CHECK(solid.vertex(0) == points[0]);
-    // The joined square is flat by moves along its normal.
+    // The joined square becomes plane by moves along its normal.
     for (int v = 1; v < 9; ++v)
       CHECK((solid.vertex(v) - points[static_cast<size_t>(v)]).norm() < 1e-7);
   }

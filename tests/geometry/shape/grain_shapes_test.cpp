@@ -19,7 +19,7 @@ bool same_bits(const PrincipalShape& a, const PrincipalShape& b) {
          a.shape.face_count() == b.shape.face_count();
 }
 
-/// Extents along the principal axes, longest first.
+/// The extents along the principal axes, longest first.
 std::array<double, 3> extents(const Polyhedron& p) {
   std::array<double, 3> length;
   for (int x = 0; x < 3; ++x)
@@ -49,7 +49,7 @@ TEST_CASE("two thousand grains stay within the paper's ranges and look like ball
     flatness += height / length / n;
   }
   CAPTURE(fill, elongation, flatness);
-  CHECK(fewest == 8);  // the whole range occurs: 8-37 vertices, 12-70 faces
+  CHECK(fewest == 8);  // both ends of the range occur: 8-37 vertices, 12-70 faces
   CHECK(most == 37);
   CHECK((fill > 0.25 && fill < 0.45));
   CHECK((elongation > 0.7 && elongation < 0.9));
@@ -103,7 +103,7 @@ TEST_CASE("a sample has the paper's classes, mixed") {
   CHECK(count_of(grains, 0.0125) == 600);
   CHECK(count_of(grains, 0.01875) == 408);
   CHECK(count_of(grains, 0.025) == 192);
-  // mixed: the first half holds about half of each class (five standard deviations)
+  // Sizes are mixed: the first half has about half of each class (five standard deviations).
   const std::vector<PrincipalShape> half(grains.begin(), grains.begin() + 600);
   CHECK(std::abs(count_of(half, 0.0125) - 300) < 44);
   CHECK(std::abs(count_of(half, 0.025) - 96) < 32);
@@ -115,7 +115,7 @@ TEST_CASE("a sample has the paper's classes, mixed") {
 
   const auto large = make_grains(10, paper_size_distribution(), SizeConvention::radius, {}, 7);
   CHECK(count_of(large, 0.025) == 5);
-  CHECK(count_of(large, 0.0375) == 3);  // 3.4 and 1.6: the larger remainder takes the tenth grain
+  CHECK(count_of(large, 0.0375) == 3);  // 3.4 and 1.6: the tenth grain goes to the larger remainder
   CHECK(count_of(large, 0.05) == 2);
   CHECK(make_grains(0, paper_size_distribution(), SizeConvention::radius, {}, 7).empty());
 }

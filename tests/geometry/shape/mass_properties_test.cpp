@@ -17,8 +17,8 @@ Polyhedron moved_copy(const Polyhedron& p, const Pose& pose, double scale = 1.0)
   return p.with_vertices(vertices);
 }
 
-/// The part of a convex polyhedron with normal.x <= offset: hull of the vertices there and of the
-/// cut edges' points.
+/// The part of a convex polyhedron with normal.x <= offset: the hull of the vertices there and of
+/// the points where edges are cut.
 Polyhedron cut(const Polyhedron& p, const Vec3& normal, double offset) {
   std::vector<Vec3> points;
   for (const Vec3& x : p.vertices())
@@ -50,7 +50,7 @@ TEST_CASE("a box") {
 }
 
 TEST_CASE("a tetrahedron against Tonon's formulas") {
-  // corner at the origin with legs a, b, c: integral of x^2 is V a^2 / 10, of xy V ab / 20
+  // A corner at the origin with legs a, b, c: the integral of x^2 is V a^2 / 10, of xy V ab / 20.
   const double a = 2.0, b = 3.0, c = 5.0, V = a * b * c / 6.0;
   const Polyhedron p({{0, 0, 0}, {a, 0, 0}, {0, b, 0}, {0, 0, c}},
                      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
@@ -127,7 +127,7 @@ TEST_CASE("the principal frame of grains anywhere") {
     CHECK(p.inertia.x() <= p.inertia.y());
     CHECK(p.inertia.y() <= p.inertia.z());
     CHECK(p.pose.rotation.norm() == Approx(1.0).epsilon(1e-15));
-    // the pose takes it back to where it was: a proper motion, as every vertex returns
+    // The pose moves every vertex back to its place; it is a proper motion.
     for (int v = 0; v < given.vertex_count(); ++v)
       CHECK((p.pose * p.shape.vertex(v) - given.vertex(v)).norm() < 1e-14 * (distance + 1.0));
     CHECK(p.volume == Approx(mass_properties(given).volume).epsilon(1e-12));

@@ -27,11 +27,11 @@ namespace {
 
 /// The unit sphere as most programs make it: rings of triangles between two poles.
 struct UvSphere {
-  std::vector<Vec3> vertices;           ///< the poles last
+  std::vector<Vec3> vertices;           ///< the poles are the last
   std::vector<std::vector<int>> faces;  ///< triangles, outward
 };
 
-/// 2 (rings - 1) columns triangles. A ring's quadrilaterals are plane, each is two triangles.
+/// Makes 2 (rings - 1) columns triangles, two for each quadrilateral of a ring, which is plane.
 UvSphere make_uv_sphere(int rings, int columns) {
   UvSphere sphere;
   for (int i = 1; i < rings; ++i)
@@ -55,8 +55,8 @@ UvSphere make_uv_sphere(int rings, int columns) {
   return sphere;
 }
 
-/// Faces as lists of corner positions, each from its smallest corner on, sorted: independent of the
-/// numbering.
+/// The faces as lists of corner positions, each from its smallest corner on, sorted: this does not
+/// depend on the numbering.
 std::set<std::vector<std::array<double, 3>>> solid(const Polyhedron& p) {
   std::set<std::vector<std::array<double, 3>>> faces;
   for (int f = 0; f < p.face_count(); ++f) {
@@ -76,7 +76,7 @@ void append_bytes(std::string& bytes, Number value) {
   bytes.append(raw, sizeof value);
 }
 
-/// Single precision, normals zero, as many writers leave them.
+/// A binary STL in single precision, with the normals zero, as many writers leave them.
 std::string binary_stl(const Polyhedron& p, const std::string& header = "binary") {
   std::string triangles;
   std::uint32_t count = 0;
@@ -98,7 +98,7 @@ const std::string cube_obj =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
     "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n";
 
-/// `text` with the first `from` replaced.
+/// `text`, with the first occurrence of `from` replaced.
 std::string with(std::string text, const std::string& from, const std::string& to) {
   const size_t at = text.find(from);
   REQUIRE(at != std::string::npos);
@@ -138,7 +138,7 @@ TEST_CASE("binary STL in single precision, also when its header says solid") {
         folder.write("grain.stl", binary_stl(p, seed % 3 ? "solid made by a scanner" : ""));
     for (const Polyhedron& q : {read_mesh(file), read_mesh_hull(file)}) {
       CHECK(q.vertex_count() == p.vertex_count());
-      if (seed % 2 == 0) CHECK(q.face_count() == 6);  // of the box, though rounding turns its sides
+      if (seed % 2 == 0) CHECK(q.face_count() == 6);  // a box, though rounding turns its sides
       CHECK(mass_properties(q).volume == Approx(mass_properties(p).volume).epsilon(1e-6));
     }
   }
@@ -152,24 +152,24 @@ TEST_CASE("OBJ as other programs write it") {
   std::string dos;
   for (const char c : text) dos += c == '\n' ? "\r\n" : std::string(1, c);
   for (const std::string& written : {
-           // comments, groups, materials, blank lines
+           // Comments, groups, materials, blank lines.
            "# made by\nmtllib a.mtl\no cube\n\ng side\nusemtl stone\ns off\n" +
                with(text, "f 1 5 7 3", "f 1 5 7 3 # left"),
-           // texture and normal indices
+           // Texture and normal indices.
            "vt 0 0\nvn 0 0 1\n" + with(with(with(text, "1 5 7 3", "1/1 5/1 7/1 3/1"), "2 4 8 6",
                                             "2//1 4//1 8//1 6//1"),
                                        "3 7 8 4", "3/1/1 7/1/1 8/1/1 4/1/1"),
-           // negative indices
+           // Negative indices.
            with(with(text, "1 5 7 3", "-8 -4 -2 -6"), "5 6 8 7", "5 -3 8 -2"),
-           // DOS line ends and tabs
+           // DOS line ends and tabs.
            with(dos, "v 1 0 0", "v\t1  0\t0 "),
-           // exponents, signs, weights, colours
+           // Exponents, signs, weights, colours.
            with(with(text, "v 1 0 0", "v +1.0e0 -0 0.0 1.0"), "v 0 1 0", "v 0 10E-1 0 0.5 0.5 0.5"),
-           // faces before vertices
+           // Faces before vertices.
            text.substr(text.find('f')) + text.substr(0, text.find('f')),
-           // no newline at the end
+           // No newline at the end.
            text.substr(0, text.size() - 1),
-           // triangles: coplanar neighbours become one face again
+           // Triangles: coplanar neighbours become one face again.
            with(text, "f 1 5 7 3", "f 1 5 7\nf 1 7 3"),
        }) {
     CAPTURE(written);
@@ -185,10 +185,10 @@ TEST_CASE("text STL as other programs write it") {
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   for (const std::string& written : {
            capitals,
-           // a name of several words, and none
+           // A name of several words, and no name.
            with(text, "solid ballast", "  solid facet of a crusher"),
            with(with(text, "solid ballast", "solid"), "endsolid ballast", "endsolid"),
-           // normals that are no numbers, and corners that agree to seven digits only
+           // Normals that are not numbers, and corners that agree only to seven digits.
            with(text, "normal -1 0 0", "normal nan -nan(ind) x"),
            with(text, "vertex -0.5 -1 -1.5", "vertex -0.5 -1 -1.4999999"),
        }) {
@@ -225,7 +225,7 @@ TEST_CASE("scanned grains: the hull of whatever the vertices are") {
 TEST_CASE("a smooth sphere in single precision, whose thin triangles know their planes badly") {
   const TemporaryFolder folder;
   Random random(9);
-  // Near the origin, and so far that four digits of it are left.
+  // Near the origin, and so far away that only four digits of the sphere are left.
   for (const double away : {0.0, 40.0}) {
     INFO(away);
     const UvSphere sphere = make_uv_sphere(40, 60);

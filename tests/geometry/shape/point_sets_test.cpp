@@ -11,7 +11,7 @@ TEST_CASE("the first close point is the one that a look at all pairs finds") {
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<Vec3> points;
     for (int i = 0; i < 60; ++i) {
-      // some points anew, some a little beside an earlier one, some in the same place
+      // Some points are new, some lie close to an earlier one, some coincide with one.
       if (i == 0 || random.below(2) == 0)
         points.push_back(Vec3(100.0, -7.0, 3.0) + random_direction(random));
       else

@@ -16,7 +16,7 @@ using namespace ballast;
 
 namespace {
 
-/// All lists of the polyhedron against what a search through its faces says.
+/// Checks all lists of the polyhedron against a search through its faces.
 void check_topology(const Polyhedron& p) {
   REQUIRE(p.vertex_count() - p.edge_count() + p.face_count() == 2);
   std::set<std::pair<int, int>> directed;
@@ -101,7 +101,7 @@ TEST_CASE("a polyhedron with other vertices keeps its faces") {
           std::vector<int>(box.face(f).begin(), box.face(f).end()));
     CHECK((other.normal(f) - box.normal(f)).norm() < 1e-15);
   }
-  // Mirrored, all faces look inwards.
+  // After a reflection all faces look inwards.
   for (Vec3& p : moved) p.x() = -p.x();
   CHECK_THROWS_AS(box.with_vertices(moved), InvalidPolyhedron);
 }
@@ -131,7 +131,7 @@ std::vector<Vec3> vertices_of(const Polyhedron& p) {
   return {p.vertices().begin(), p.vertices().end()};
 }
 
-/// The faces of a solid as lists of its vertices, as a mesh is given.
+/// The faces of a solid as lists of its vertices, in the form of a mesh.
 Faces loops_of(const Polyhedron& solid) {
   Faces loops;
   for (int f = 0; f < solid.face_count(); ++f)
@@ -139,7 +139,7 @@ Faces loops_of(const Polyhedron& solid) {
   return loops;
 }
 
-/// What is wrong with a mesh; empty when it is accepted.
+/// The defect for which a mesh is refused; empty if it is accepted.
 std::string defect(const std::vector<Vec3>& vertices, const Faces& faces) {
   return complaint<InvalidPolyhedron>([&] { Polyhedron(vertices, faces); });
 }
@@ -193,7 +193,7 @@ TEST_CASE("defects are named") {
     f = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 4, 5}, {0, 6, 4}, {4, 6, 5}, {0, 5, 6}};
   });
   refuses("vertices - edges + faces = 0 instead of 2", [&] {
-    // three bars around a triangular hole, their outer and inner corners in two planes
+    // Three bars around a triangular hole, with their outer and inner corners in two planes.
     v.clear();
     f.clear();
     for (const double z : {0.0, 1.0})

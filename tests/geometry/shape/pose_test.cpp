@@ -18,9 +18,9 @@ TEST_CASE("directions and rotations are uniform") {
     REQUIRE(std::abs(q.norm() - 1.0) < 1e-15);
     turned += q.toRotationMatrix() / n;
   }
-  // five standard errors of each mean
+  // Five standard errors of each mean.
   const double error = 5.0 / std::sqrt(static_cast<double>(n));
   CHECK(direction.cwiseAbs().maxCoeff() < error * 0.58);
   CHECK((second - Mat3::Identity() / 3.0).cwiseAbs().maxCoeff() < error * 0.3);
-  CHECK(turned.cwiseAbs().maxCoeff() < error * 0.58);  // uniform rotations average to zero
+  CHECK(turned.cwiseAbs().maxCoeff() < error * 0.58);  // the mean of uniform rotations is zero
 }

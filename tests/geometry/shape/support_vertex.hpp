@@ -5,7 +5,7 @@
 
 namespace ballast {
 
-/// The vertex with the largest d.x (the first among equals), and nothing faster.
+/// Returns the vertex with the largest d.x (the first among equals), without any shortcut.
 inline const Vec3& support_vertex(const Polyhedron& polyhedron, const Vec3& d) {
   const Vec3* best = &polyhedron.vertex(0);
   for (const Vec3& p : polyhedron.vertices())

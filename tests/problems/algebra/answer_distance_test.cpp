@@ -10,7 +10,7 @@ using namespace ballast;
 
 namespace {
 
-/// A wall of 2 kg that would move at 1 m/s into a stop: 2 N s hold it.
+/// A wall of 2 kg that would move at 1 m/s into a stop. An impulse of 2 N s holds it.
 FrictionProblem pressed_wall() {
   FrictionProblem problem;
   problem.has_dynamics = true;
@@ -78,7 +78,7 @@ TEST_CASE("Impulses that no body feels are no distance") {
   REQUIRE((even - uneven).norm() > 0.01);
   const AnswerDistance d = answer_distance(p, uneven, even);
   CHECK(d.velocity < 1e-13);
-  CHECK(d.body_impulse < 1e-7);  // the root of a difference of rounded squares
+  CHECK(d.body_impulse < 1e-7);  // the square root of a difference of rounded squares
   CHECK(d.statuses == 0);
 }
 

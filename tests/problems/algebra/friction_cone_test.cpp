@@ -19,7 +19,7 @@ Vector3d random_point(Random& random) {
   return scale * Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
 }
 
-/// How far x is outside K_mu, by its definition.
+/// The amount by which x is outside K_mu, by the definition of the cone.
 double outside(const Vector3d& x, double mu) { return std::hypot(x[1], x[2]) - mu * x[0]; }
 
 }  // namespace
@@ -76,12 +76,12 @@ TEST_CASE("the natural map vanishes exactly on the law, for every rho") {
   const double mu = 0.5;
   for (const double rho : {1e-3, 1.0, 1e3}) {
     CHECK(natural_map({0, 0, 0}, {0.3, 2, 1}, mu, rho).norm() == 0.0);    // open
-    CHECK(natural_map({2, 0.6, 0.7}, {0, 0, 0}, mu, rho).norm() == 0.0);  // stick
+    CHECK(natural_map({2, 0.6, 0.7}, {0, 0, 0}, mu, rho).norm() == 0.0);  // sticks
     CHECK(natural_map({2, 0.6, 0.8}, {0, -3, -4}, mu, rho).norm() <=
-          1e-15 * 4 * rho + 1e-15);                                         // slip
-    CHECK(natural_map({2, 0.6, 0.8}, {0, 3, 4}, mu, rho).norm() > 1e-4);    // friction that pushes
+          1e-15 * 4 * rho + 1e-15);                                         // slips
+    CHECK(natural_map({2, 0.6, 0.8}, {0, 3, 4}, mu, rho).norm() > 1e-4);    // friction along slip
     CHECK(natural_map({2, 0.1, 0.1}, {0, -3, -4}, mu, rho).norm() > 1e-4);  // slips inside the cone
-    CHECK(natural_map({2, 0, 0}, {0.1, 0, 0}, mu, rho).norm() > 1e-5);      // pushes while it opens
+    CHECK(natural_map({2, 0, 0}, {0.1, 0, 0}, mu, rho).norm() > 1e-5);      // impulse while opening
     CHECK(natural_map({0, 0, 0}, {-0.1, 0, 0}, mu, rho).norm() > 1e-5);     // sinks in
     CHECK(natural_map({2, 1.2, 1.6}, {0, -3, -4}, mu, rho).norm() > 1e-4);  // outside the cone
   }

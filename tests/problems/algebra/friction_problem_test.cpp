@@ -22,7 +22,7 @@ std::string complaint(const FrictionProblem& problem) {
 }
 
 struct Damage {
-  const char* names;  ///< what the message must begin with
+  const char* names;  ///< the beginning of the message
   std::function<void(FrictionProblem&)> make;
 };
 
@@ -155,7 +155,7 @@ TEST_CASE("the first bad entry is named, with its array and its value") {
        [](auto& p) { p.delassus.w.innerIndexPtr()[p.delassus.w.outerIndexPtr()[1] - 1] = 17; }},
       {"delassus.w row 0 has column 0 after 0",
        [](auto& p) { p.delassus.w.innerIndexPtr()[1] = 0; }},
-      // scales whose squares or inverses overflow
+      // Numbers whose squares or inverses overflow.
       {"dynamics.v_free[3] = 1e+308 is beyond 1e+30",
        [](auto& p) { p.dynamics.v_free[3] = 1e308; }},
       {"dynamics.bias[2] = -1.0000000000000001e+31 is beyond",
@@ -208,7 +208,7 @@ TEST_CASE("known masses are not looked at again, others and all the rest are") {
   refuses([](auto& p) { p.dynamics.h.back() = not_a_number; }, true);
   refuses([](auto& p) { p.dynamics.v_free[1] = not_a_number; }, true);
   refuses([](auto& p) { p.friction[0] = -0.5; }, true);
-  // One mass changes by its last bit.
+  // Changes one mass by its last bit.
   FrictionProblem other = good;
   other.dynamics.mass[0] = std::nextafter(other.dynamics.mass[0], 1e30);
   CHECK_FALSE(valid.are_of(other.dynamics));

@@ -1,4 +1,4 @@
-// Islands: the component search beside a slow obvious one.
+// Islands: the search for components against a slow, simple one.
 
 #include "problems/algebra/islands.hpp"
 
@@ -11,7 +11,7 @@ using namespace ballast;
 
 namespace {
 
-/// The slow obvious way: every body takes the smaller label of its neighbours until nothing
+/// The slow, simple way: every body takes the smaller label of its neighbours until nothing
 /// changes.
 std::vector<int> labels_of(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
@@ -39,7 +39,7 @@ TEST_CASE("islands are the ones that the slow obvious search finds, each contact
         make_known_solution({.bodies = bodies, .contacts = contacts, .seed = seed}).problem;
     if (contacts > 0) problem.dynamics.body_a[0] = problem.dynamics.body_b[0] = -1;
     const std::vector<int> label = labels_of(problem);
-    // By label, which is the island's first body.
+    // Sorted by label, which is the first body of the island.
     std::vector<std::vector<int>> by_label(bodies), expected;
     for (int c = 0; c < contacts; ++c) {
       const int body = std::max(problem.dynamics.body_a[c], problem.dynamics.body_b[c]);

@@ -1,5 +1,5 @@
-// Made problems: piles as difficult as was asked, and solvable; small ones of which the answer is
-// known.
+// Made problems: piles are solvable and have the difficulty that was asked for; small problems have
+// known answers.
 
 #include "problems/algebra/made_problems.hpp"
 
@@ -26,7 +26,7 @@ double rank_deficiency(const FrictionProblem& problem) {
   return 1.0 - rank / problem.row_count();
 }
 
-/// The least |H^T r - M (v - v_free)| over all r: zero when some impulses bring the bodies to v.
+/// The least |H^T r - M (v - v_free)| over all r: zero if some impulses bring the bodies to v.
 double unreachable(const FrictionProblem& problem, const Eigen::VectorXd& v) {
   const Eigen::MatrixXd pull = oracle::dense_h(problem).transpose();
   const Eigen::VectorXd wanted = oracle::dense_mass(problem) * (v - problem.dynamics.v_free);
@@ -102,7 +102,7 @@ TEST_CASE("Members of the family differ, stay within what it promises, and have 
         (settings.redundancy < 0.8 && settings.mass_ratio <= 1e4 && settings.friction_max <= 1.0));
     stored += settings.is_stored;
     CHECK_NOTHROW(make_pile(settings).validate());
-    // Rest is allowed at every contact: a solution exists.
+    // Every contact allows rest: a solution exists.
     settings.is_stored = false;
     const FrictionProblem pile = make_pile(settings);
     for (int c = 0; c < pile.contact_count(); ++c) {
@@ -133,12 +133,12 @@ TEST_CASE("stress problems: the velocities said to be the answer can be reached,
 }
 
 TEST_CASE("stress problems: impulses known by hand solve them") {
-  // A stack: each contact carries what lies on it.
+  // A stack: each contact carries the bodies above it.
   const StressProblem stack = mass_stack({1.0, 1e3, 5.0}, 1);
   check_solution(stack, gh * Eigen::Vector3d(1006.0, 1005.0, 5.0));
-  // A chain: every contact carries force times the step of 1 ms.
+  // A chain: every contact carries the force times the step of 1 ms.
   check_solution(jammed_chain(5, 1000.0), Impulses::Constant(6, 1.0));
-  // A block of 2 kg: r_N = 2 g h, friction mu r_N against the motion.
+  // A block of 2 kg: r_N = 2 g h, with the friction mu r_N against the motion.
   const double heading = 0.7;
   check_solution(
       sliding_block(0.4, heading),
@@ -152,7 +152,7 @@ TEST_CASE("stress problems: the rod's tip slides, sticks, or has several answers
   CHECK(contact_error(slides.problem, Eigen::Vector3d(rn, -0.5 * rn, 0.0)).natural_map_max <=
         1e-14);
   CHECK(slides.u[1] > 0.0);
-  const StressProblem sticks = painleve_rod(2.0, 0.1);  // no slip: p < 0
+  const StressProblem sticks = painleve_rod(2.0, 0.1);  // cannot slip, as p < 0
   CHECK(sticks.u == Eigen::Vector3d::Zero());
   CHECK(contact_error(painleve_rod(2.0, -0.1).problem, Impulses::Zero(3)).natural_map_max == 0.0);
 }

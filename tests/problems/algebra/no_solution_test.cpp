@@ -18,7 +18,7 @@ TEST_CASE("two bodies that nothing can move and that approach have no solution")
   CHECK(proof.approach == 1.0);
   CHECK(proof.contacts == 1);
   CHECK(proof.words() == "there is no solution: contact 0 sinks in at 1 m/s whatever the impulses");
-  // one that moves sideways only
+  // A contact that moves sideways only.
   FrictionProblem sideways = immovable_contact(-1.0);
   sideways.delassus.w.coeffRef(1, 1) = sideways.delassus.w.coeffRef(2, 2) = 1.0;
   CHECK(look_for_no_solution(sideways, Impulses::Zero(3)).proved());
@@ -30,7 +30,7 @@ TEST_CASE("a body between two walls that close has no solution; sweeps find the 
   CHECK(proof.proved());
   CHECK(proof.contacts == 2);
   CHECK(proof.approach == Approx(1.0));
-  // Impulses of a solver that diverges prove it without one.
+  // Impulses of a diverging solver prove it too.
   const Impulses r = (1e12 * Impulses::Unit(6, 0)) + (1e12 + 1.0) * Impulses::Unit(6, 3);
   CHECK(look_for_no_solution(squeezed_contacts(), r, 0).proved());
 }
@@ -87,7 +87,7 @@ TEST_CASE("a heavy body elsewhere hides no proof") {
   DynamicsForm& d = problem.dynamics;
   d.add_body(Eigen::MatrixXd::Constant(1, 1, 1.0));
   d.add_body(Eigen::MatrixXd::Constant(1, 1, 1e20));
-  // the first between two walls that close, the second on another
+  // The first body is between two closing walls, the second on another wall.
   d.body_a = {-1, 0, -1};
   d.body_b = {0, -1, 1};
   d.h = {1.0, -1.0, 1.0};
@@ -99,7 +99,7 @@ TEST_CASE("a heavy body elsewhere hides no proof") {
 
 TEST_CASE("what weights prove is what dense matrices say") {
   FrictionProblem problem = oracle::mixed_problem();
-  // Where nothing moves bodies part: sinking in there would be the better proof.
+  // Makes contact 4, which nothing moves, part: sinking in there would be the better proof.
   problem.dynamics.bias[problem.row_begin[4]] = 1.0;
   const Eigen::MatrixXd w = oracle::dense_delassus(problem);
   const Eigen::VectorXd q = oracle::dense_q(problem);

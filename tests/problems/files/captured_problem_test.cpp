@@ -1,4 +1,4 @@
-// A problem and what a run knew about it, in one file: whole, or refused by name.
+// A problem and the run's data about it in one file, which is read whole or refused by name.
 
 #include "problems/files/captured_problem.hpp"
 
@@ -16,7 +16,7 @@ std::vector<double> numbers(Random& random, int count) {
   return values;
 }
 
-/// Six contacts, some of them without friction and so of one row.
+/// Six contacts, some of them without friction and therefore with one row.
 CapturedProblem sample() {
   Random random(4);
   CapturedProblem captured;
@@ -61,7 +61,7 @@ TEST_CASE("all of a captured problem comes back, bit by bit") {
   CHECK((back.solution == captured.solution && back.gap == captured.gap &&
          back.frame == captured.frame && back.position == captured.position));
   CHECK((back.key == captured.key && back.start == captured.start));
-  // Equal contents are equal bytes.
+  // Equal contents give equal bytes.
   write_captured(folder / "again.hdf5", back);
   CHECK(read_whole_file(folder / "again.hdf5") == read_whole_file(folder / "c.hdf5"));
 }
@@ -118,7 +118,7 @@ TEST_CASE("what does not fit the problem is named") {
   CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 6, 12, 18}) == bodies);
   CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 7, 12, 18, 24}) == bodies);
   CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 6, 6, 12, 18, 24}) == bodies);
-  // beyond M and back; a difference that no int holds
+  // Beyond M and back; then a difference that no int holds.
   CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 6, 12, 18, 24, 30, 24}) == bodies);
   CHECK(broken("/ballast/dof_begin", std::vector<int>{0, 6, -2147483647 - 1, 24}) == bodies);
   CHECK(broken("/ballast/rows", std::vector<int>{3, 2, 3, 3, 3, 3}) ==

@@ -1,4 +1,4 @@
-// Every way in which a stored problem can be broken is one line that says where.
+// For every defect of a stored problem the reader says in one line where it is.
 
 #include "problems/files/fclib_file.hpp"
 

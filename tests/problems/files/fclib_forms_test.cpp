@@ -1,4 +1,4 @@
-// From a file's matrices to bodies and contacts, and back.
+// Converts the matrices of a file to bodies and contacts, and back.
 
 #include "problems/files/fclib_file.hpp"
 
@@ -13,7 +13,7 @@ using namespace ballast;
 
 namespace {
 
-/// Unit masses, and contacts that touch the unknowns given.
+/// Unit masses, and contacts that touch the given unknowns.
 GlobalProblem unit_masses(int unknowns, const std::vector<std::vector<int>>& touched) {
   GlobalProblem global;
   global.m.resize(unknowns, unknowns);
@@ -29,7 +29,7 @@ GlobalProblem unit_masses(int unknowns, const std::vector<std::vector<int>>& tou
   return global;
 }
 
-/// u of impulses r by the file's own equations.
+/// u of the impulses r by the file's own equations.
 Eigen::VectorXd velocity_of(const GlobalProblem& global, const Eigen::VectorXd& r) {
   const Eigen::MatrixXd m = global.m, h = global.h;
   return h.transpose() * oracle::dense_solution(m, h * r + global.f) + global.w;
@@ -83,7 +83,7 @@ TEST_CASE("one unknown behind the bodies is a body of its own, as a run's driven
   CHECK(problem.dynamics.body_b == std::vector<int>{0, 1, 2});
   CHECK(problem.dynamics.body_a == std::vector<int>{1, 2, -1});
   check_same_law(global, problem);
-  // A wall that is coupled to a grain by its mass is none.
+  // A wall that is coupled to a grain by its mass is not a wall.
   global.m.coeffRef(12, 3) = global.m.coeffRef(3, 12) = 0.25;
   CHECK_FALSE(to_friction_problem(global).has_dynamics);
 }
@@ -118,10 +118,10 @@ TEST_CASE(
   const Wrong wrongs[] = {
       {6, 0, {{0, 0, -1.0}}, "M(0, 0) = -1"},
       {8, 0, {{3, 3, 0.0}}, "M is not positive definite"},
-      // A body's block: the lower triangle alone would be taken for the whole.
+      // The block of a body: its lower triangle alone would be taken for the whole.
       {6, 0, {{0, 1, 0.5}}, "dynamics.mass[6] = "},
       {6, 0, {{0, 1, 2.0}, {1, 0, 2.0}}, "not positive definite"},  // eigenvalues -1 and 3
-      // Eight unknowns are no bodies. What no contact touches cannot be seen in W.
+      // Eight unknowns are no bodies. Unknowns that no contact touches do not show in W.
       {8, 3, {{3, 3, -1.0}}, "M is not positive definite"},
       {8, 0, {{3, 3, -1.0}}, "M is not positive definite"},
       {8, 0, {{0, 7, 2.0}, {7, 0, 2.0}}, "M is not positive definite"},

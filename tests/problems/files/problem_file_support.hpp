@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of stored problems share: a folder, a small problem, files damaged on purpose.
+// Common to the tests of stored problems: a folder, a small problem, files damaged on purpose.
 
 #include <hdf5.h>
 
@@ -18,7 +18,7 @@ namespace ballast {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that goes with the test.
+/// A folder of its own, which is removed with the test.
 struct Folder : TemporaryFolder {
   fs::path operator/(const std::string& name) const { return path() / name; }
 };
@@ -28,7 +28,7 @@ inline KnownSolution small(double frictionless = 0.0) {
       {.bodies = 4, .contacts = 6, .friction_min = 0.1, .frictionless_fraction = frictionless});
 }
 
-/// What reading the file complains of, behind its name, in one line.
+/// The complaint of the reader about the file, in one line, after the file's name.
 template <typename Read>
 std::string complaint(const fs::path& file, const Read& read) {
   return complaint_about(file, [&] { read(file); });
@@ -45,7 +45,7 @@ inline void remove(const fs::path& file, const char* path) {
   H5Fclose(id);
 }
 
-/// The dataset replaced by other numbers.
+/// Replaces the numbers of the dataset.
 template <typename Value>
 void replace(const fs::path& file, const char* path, const std::vector<Value>& values) {
   remove(file, path);
@@ -60,7 +60,7 @@ void replace(const fs::path& file, const char* path, const std::vector<Value>& v
   H5Fclose(id);
 }
 
-/// The dataset replaced by one that claims so many numbers and has stored none: a few bytes.
+/// Replaces the dataset by one that claims `entries` numbers and stores none, in a few bytes.
 inline void claim(const fs::path& file, const char* path, hsize_t entries) {
   remove(file, path);
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);

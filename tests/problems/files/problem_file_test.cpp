@@ -1,4 +1,4 @@
-// Stored problems: what is written is read back, and what cannot be written harms nothing.
+// Stored problems: they are read back as written, and a failed write does no harm.
 
 #include "problems/algebra/contact_error.hpp"
 #include "tests/problems/files/problem_file_support.hpp"
@@ -72,7 +72,7 @@ TEST_CASE("triplets have the column in p and the row in i; longer arrays than nz
       x.push_back(entry.value());
     }
   const int entries = static_cast<int>(x.size());
-  p.push_back(1 << 30);  // beyond nz: never looked at
+  p.push_back(1 << 30);  // beyond nz: never read
   i.push_back(-7);
   x.push_back(not_a_number);
   replace(file, "/fclib_local/W/nz", std::vector<int>{entries});

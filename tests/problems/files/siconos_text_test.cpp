@@ -16,7 +16,7 @@ std::string complaint_of_text(const std::string& text) {
   return complaint(folder.write("p.dat", text));
 }
 
-/// W is unsymmetric where the layout must show.
+/// W is unsymmetric, so that a wrong layout shows.
 const Eigen::Matrix3d one_contact =
     (Eigen::Matrix3d() << 2, 0.25, 0, 0.26, 3, 0, 0, 0, 4).finished();
 
@@ -72,7 +72,7 @@ TEST_CASE("sparse matrices as CSparse prints them") {
 }
 
 TEST_CASE("a global problem is told by its first matrix") {
-  // A body of mass 2 with six unknowns that touches the ground by the first three.
+  // A body of mass 2 with six unknowns that touches the ground with the first three.
   std::string text = "3\n1\n0\n6\n6\n6 6\n";
   for (int j = 0; j < 6; ++j)
     for (int i = 0; i < 6; ++i) text += i == j ? "2 " : "0 ";
@@ -129,7 +129,7 @@ TEST_CASE("each broken text is refused, with its line") {
        "line 10: H is 3 x 3, must be 4 x 3"},
       {blocks + "3\n3\n2 1\n0 1\n0\n5\n" + of_block, "line 11: the blocks are not in order"},
       {blocks + "3\n3\n2 1\n0 1\n4\n0\n" + of_block, "line 10: block 0 is outside the matrix"},
-      // 2e9 columns of no rows would be walked through
+      // The reader must not walk through 2e9 columns without rows.
       {blocks + "0\n2000000000\n", "line 6: the ends of block rows do not ascend to 3"},
       {blocks + "0\n3\n", "line 6: the ends of block rows do not ascend to 3"},
       {blocks + "3\n2\n2 1\n0 1\n0\n0\n" + of_block,
@@ -145,7 +145,7 @@ TEST_CASE("each broken text is refused, with its line") {
 TEST_CASE("sizes that the file cannot hold are refused before memory is asked for") {
   const std::string ends = "the file ends within ";
   std::vector<std::pair<std::string, std::string>> wrongs = {
-      // three times the contacts are no int any more
+      // Three times the number of contacts does not fit an int.
       {"3\n1500000000\n2\n3\n3\n", "the number of contacts = 1500000000 is too large"},
       {"3\n700000000\n2\n3\n3\n", ends + "the number of contacts"}};
   for (const std::string storage : {"0", "1", "2"}) {

@@ -1,4 +1,4 @@
-// Assembly against its definition: H v is the velocity of b's material point against a's, seen in
+// Assembly against its definition: H v is the velocity of b's material point relative to a's, in
 // the contact frame.
 
 #include "problems/mechanics/assemble.hpp"
@@ -10,8 +10,8 @@ using namespace ballast;
 
 namespace {
 
-/// Two free cubes, one that only slides along x and z, a driven wall and a fixed one, all at odd
-/// poses and velocities.
+/// Two free cubes, one that only slides along x and z, a driven wall and a fixed one, all at
+/// unusual poses and velocities.
 struct Fixture {
   MechanicalSystem system;
   MotionState state;
@@ -54,7 +54,7 @@ struct Fixture {
                           Vec3(random.normal(), random.normal(), random.normal()), 0.0});
   }
 
-  /// The problem of a step of 1 ms whose free velocities are the state's.
+  /// The problem of a step of 1 ms whose free velocities are those of the state.
   FrictionProblem assembled(ProblemAssembler& assembler) const {
     Eigen::VectorXd v;
     assembler.pack(state, v);
@@ -76,9 +76,9 @@ TEST_CASE("H v is the relative velocity in the contact frame") {
   problem.validate();
   REQUIRE(problem.contact_count() == 5);
   REQUIRE(problem.dynamics.dof_count() == 6 + 6 + 2 + 1);
-  CHECK(problem.contact_rows(2) == 1);  // a frictionless wall: one row
+  CHECK(problem.contact_rows(2) == 1);  // a frictionless wall has one row
   CHECK(problem.contact_rows(3) == 3);
-  CHECK((problem.friction[1] == 0.4 && problem.friction[3] == 0.3));  // a wall has its own
+  CHECK((problem.friction[1] == 0.4 && problem.friction[3] == 0.3));  // a wall has its own friction
   Eigen::VectorXd u;
   free_contact_velocity(problem, u);
   for (int c = 0; c < problem.contact_count(); ++c) {
@@ -181,7 +181,7 @@ TEST_CASE("a team assembles with the bits of one thread") {
   Fixture f;
   Random random(8);
   const std::vector<ContactPoint> few = f.contacts;
-  for (int k = 0; k < 500; ++k) {  // several parts
+  for (int k = 0; k < 500; ++k) {  // enough for several parts
     f.contacts.push_back(few[k % few.size()]);
     f.contacts.back().normal = random_direction(random);
     f.contacts.back().position = Vec3(random.normal(), random.normal(), random.normal());

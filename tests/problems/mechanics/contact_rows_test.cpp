@@ -1,4 +1,4 @@
-// The rows of H in lanes against the same products contact by contact.
+// The rows of H, computed in lanes, against the same products contact by contact.
 
 #include "problems/mechanics/contact_rows.hpp"
 
@@ -16,7 +16,7 @@ Vec3 in_place(const double (&numbers)[3][ContactRows::size], int k) {
   return Vec3(numbers[0][k], numbers[1][k], numbers[2][k]);
 }
 
-/// Also the sign of a zero.
+/// Also compares the sign of a zero.
 bool same_bits(const Vec3& x, const Vec3& y) {
   for (int i = 0; i < 3; ++i)
     if (x[i] != y[i] || std::signbit(x[i]) != std::signbit(y[i])) return false;
@@ -34,7 +34,7 @@ TEST_CASE("contact rows have the bits of Eigen's products, contact by contact") 
     Vec3 normal[ContactRows::size], arm[2][ContactRows::size];
     Mat3 rotation[2][ContactRows::size];
     for (int k = 0; k < ContactRows::size; ++k) {
-      // along an axis with zeros of both signs, between two axes, and anywhere
+      // Along an axis with zeros of both signs, between two axes, and in any direction.
       normal[k] = vector().normalized();
       if (round % 4 == 1) normal[k] = (k % 2 ? -1.0 : 1.0) * Vec3::Unit(k % 3);
       if (round % 4 == 1)

@@ -10,7 +10,7 @@ using namespace ballast;
 
 namespace {
 
-/// A free cube, one that slides along y alone, a floor, and a driven wall at x = 0.5.
+/// A free cube, a cube that only slides along y, a floor, and a driven wall at x = 0.5.
 Scene two_cubes_and_two_walls() {
   Scene scene = empty_scene();
   scene.friction = 0.5;
@@ -88,7 +88,7 @@ TEST_CASE("solid fraction: whole, cut and outer grains") {
   const MechanicalSystem system =
       cubes({Vec3(1, 1, 1), Vec3(4, 2, 2), Vec3(0, 0, 3), Vec3(9, 9, 9)}, state);
   ControlVolume volume(Vec3(0, 0, 0), Vec3(4, 4, 4));
-  // 1 + 1/2 + 1/4 + 0 of 64
+  // 1 + 1/2 + 1/4 + 0 of the volume 64.
   CHECK(volume.solid_fraction(system, state) == Approx(1.75 / 64.0).epsilon(1e-14));
 }
 

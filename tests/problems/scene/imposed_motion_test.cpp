@@ -36,7 +36,7 @@ TEST_CASE("points of a body that is shifted and turned move as its poses say") {
       (motion.pose_at(t + dt, start) * point - motion.pose_at(t - dt, start) * point) / (2.0 * dt);
   CHECK((motion.velocity_at(t, place) - moved).norm() < 1e-7);
   CHECK((motion.pose_at(0.0, start).position - start.position).norm() < 1e-15);
-  // The axis goes with the shift and stays where it is otherwise.
+  // The axis moves with the shift and is otherwise at rest.
   const Vec3 on_axis = motion.centre + motion.shift.at(t) + 0.7 * motion.axis;
   CHECK((motion.velocity_at(t, on_axis) - motion.shift.rate_at(t)).norm() < 1e-12);
 }

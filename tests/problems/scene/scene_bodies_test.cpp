@@ -118,7 +118,7 @@ TEST_CASE("what cannot be is refused by one line") {
   says(crowd + "to = [1, 1, 1]\n", "1 bodies have room");
   says(crowd + "to = [2, 2, 2]\nradius_min = 1\n", "larger than radius");
   says(crowd + "to = [2, 2, 2]\naspect = [1e-12, 1, 1]\n", "crowd.0.shape = \"box\"");
-  // more cells than can be counted
+  // The region has more cells than an integer can count.
   const auto wide = folder.write("wide.toml", crowd + "to = [1e30, 1e30, 1e30]\n");
   CHECK(read_scene(wide).bodies.size() == 9);
   says("[[body]]\nmass = 1\nshape = \"mesh\"\nfile = \"\"\n", "body.0.file = \"\": is empty");

@@ -1,4 +1,4 @@
-// docs/manual/scenes.md says of every key of a scene what the program says of it.
+// docs/manual/scenes.md agrees with the program about every key of a scene.
 
 #include <fstream>
 #include <map>
@@ -12,10 +12,10 @@ using namespace ballast;
 
 namespace {
 
-/// One row of the tables; `list` is "" or what stands before its keys: "wall.0.", "body.0.part.0.".
+/// A row of the tables. `list` is "", or the prefix of its keys: "wall.0.", "body.0.part.0.".
 struct Row {
   std::string list, key, unit, by_default, expected, meaning;
-  /// As an override has it.
+  /// The key in the form of an override.
   std::string path() const {
     std::string name = list + key;
     const std::string classes = "grains.distribution.";
@@ -85,7 +85,7 @@ std::string scene_with(const Row& row) {
   return std::string("[[body]]\n") + (row.key == "mass" ? "" : "density = 1\n") + shape + rest;
 }
 
-/// The same without the line of the key.
+/// The same scene without the line of the key.
 std::string scene_without(const Row& row) {
   std::string text = scene_with(row);
   const size_t at = text.find("\n" + row.key.substr(row.key.rfind('.') + 1) + " = ");
@@ -93,8 +93,8 @@ std::string scene_without(const Row& row) {
   return text.erase(at, text.find('\n', at + 1) - at);
 }
 
-/// Values that are not what is expected; a date is never. Numbers just outside a range, or at an
-/// end that does not count.
+/// Values that the key does not take; a date is always wrong. Numbers lie just outside the range,
+/// or at an end that does not belong to it.
 std::vector<std::string> wrong_values(const std::string& expected) {
   static const std::map<std::string, std::vector<std::string>> wrongs{
       {"a text", {"3"}},
@@ -167,7 +167,7 @@ TEST_CASE("the manual has every key that a scene can have") {
   std::set<std::string> paths, asked;
   for (const Row& row : rows) paths.insert(row.path());
   for (const Row& row : rows) {
-    if (row.key == "mass" && row.list == "body.0.") continue;  // as for density
+    if (row.key == "mass" && row.list == "body.0.") continue;  // its scene is that of density
     const std::string table = row.path().substr(0, row.path().rfind('.') + 1);
     if (!asked.insert(table + scene_with(row)).second) continue;
     const std::string message = error_of(folder, scene_with(row), {table + "zzzzzzzzzzzzzzzz=1"});

@@ -1,4 +1,4 @@
-// Scenes that are wrong: the error names file, line, key and value, and what was expected. Types
+// Wrong scenes: the error names the file, line, key and value, and the expected value. The types
 // and ranges of every key are in scene_docs_test.cpp.
 
 #include "tests/problems/scene/scene_texts.hpp"
@@ -16,12 +16,12 @@ TEST_CASE(
   const std::string grains = "[grains]\ncount = 10\n[box]\nlength = 0.3\nwidth = 0.3\n";
   const std::string driven = one_wall + "motion = \"driven\"\n";
   const std::vector<Wrong> wrongs = {
-      // TOML itself
+      // TOML itself.
       {"[scene\n", {":1:", "not valid TOML"}},
       {"[scene]\nstep = 1\nstep = 2\n", {":3:", "step"}},
       {"", {"nothing in it", "[grains]"}},
       {"[scene]\nname = \"empty\"\n", {"nothing in it"}},
-      // unknown keys, at every depth
+      // Unknown keys, at every depth.
       {"[sceen]\nstep = 1\n" + one_wall, {":1:", "sceen", "unknown key", "\"scene\""}},
       {one_wall + "frictoin = 0.4\n", {":3:", "wall.0.frictoin = 0.4", "\"friction\""}},
       {body + "mass = 1\nradius = 3\n", {":5:", "body.0.radius = 3", "unknown key", "size"}},
@@ -36,7 +36,7 @@ TEST_CASE(
       {grains + "[grains.shape]\nangularity = 2\n",
        {"grains.shape.angularity = 2", "unknown key", "roughness"}},
       {"step = 1e-4\n" + one_wall, {":1:", "step = 1e-04", "unknown key"}},
-      // types and relations
+      // Types and relations.
       {"scene = 3\n" + one_wall, {"scene = 3", "expected a table [scene]"}},
       {"[gravity]\ndirection = [0, 1, \"z\"]\n" + one_wall, {"gravity.direction", "entry 2"}},
       {"[wall]\nnormal = [0, 0, 1]\n", {"wall", "[[wall]]"}},
@@ -46,7 +46,7 @@ TEST_CASE(
        {"gravity.direction = [0, 0, 0]", "not zero"}},
       {"[solver]\nwarm_strat = true\n" + one_wall,
        {"solver.warm_strat = true", "did you mean \"warm_start\""}},
-      // walls
+      // Walls.
       {"[[wall]]\nnormal = [0, 0, 0]\n", {"wall.0.normal = [0, 0, 0]", "not zero"}},
       {"[[wall]]\nnormal = [0, 0, 1e200]\n", {"wall.0.normal = [0, 0, 1e+200]", "finite length"}},
       {driven + "mass = 1\n", {"wall.0.load.f_max is missing", "[N]"}},
@@ -56,7 +56,7 @@ TEST_CASE(
       {one_wall + "name = \"a\"\n" + one_wall + "name = \"a\"\n",
        {":6:", "wall.1.name = \"a\"", "twice"}},
       {one_wall + "name = \"\"\n", {"wall.0.name = \"\"", "empty"}},
-      // bodies
+      // Bodies.
       {"[[body]]\nshape = \"box\"\nsize = [1, -2, 1]\nmass = 1\n",
        {"body.0.size = [1, -2, 1]", "> 0 [m]"}},
       {"[[body]]\nshape = \"box\"\nsize = [1, 1e-12, 1]\nmass = 1\n", {"body.0.shape = \"box\""}},
@@ -74,7 +74,7 @@ TEST_CASE(
        {"body.0.name = \"a\"", "twice"}},
       {"[[body]]\nshape = \"mesh\"\nmass = 1\nfile = \"none.obj\"\n",
        {"body.0.file = \"none.obj\"", "none.obj"}},
-      // grains
+      // Grains.
       {"[grains]\ncount = 10\n", {"box.length is missing", "[m]"}},
       {"[grains]\ncount = 10\n[box]\nlength = 1\nwidth = 0.05\n",
        {"box.width = 0.05", "at least 0.1"}},

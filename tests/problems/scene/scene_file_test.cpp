@@ -1,4 +1,4 @@
-// Scenes: what is read is what the file says, where it is found, and by what it is known.
+// Scenes: they are read as the file says, found by their names, and identified by their keys.
 
 #include <numbers>
 
@@ -18,7 +18,7 @@ Scene read_text(const TemporaryFolder& folder, const std::string& text,
   return read_scene(folder.write("scene.toml", text), overrides);
 }
 
-/// Lowest distance of a body's vertices over a wall [m].
+/// The lowest distance of a body's vertices from a wall [m].
 double gap(const BodySpec& body, const WallSpec& wall) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vec3& vertex : body.shape->vertices())
@@ -26,7 +26,7 @@ double gap(const BodySpec& body, const WallSpec& wall) {
   return lowest;
 }
 
-/// The polyhedron with its vertices listed from the last to the first.
+/// The same polyhedron with its vertices listed from the last to the first.
 Polyhedron renumbered(const Polyhedron& mesh) {
   std::vector<Vec3> vertices(mesh.vertices().rbegin(), mesh.vertices().rend());
   std::vector<std::vector<int>> faces;
@@ -49,7 +49,7 @@ TEST_CASE("every scene of the folder is read, and its resolved text says the sam
     CHECK(scene.name == name);
     CHECK(scene.title == title);
     CHECK(!title.empty());
-    const bool has_mesh = resolved.find("\nfile = ") != std::string::npos;  // whose content counts
+    const bool has_mesh = resolved.find("\nfile = ") != std::string::npos;  // enters the key
     CHECK((key == content_key(resolved)) != has_mesh);
     CHECK(resolve_scene(folder.write("resolved.toml", resolved)).text == resolved);
     CHECK(scene_friction(file) == scene.friction);
@@ -76,8 +76,8 @@ TEST_CASE(
   CHECK(scene.grains->distribution[1].size == 0.0375);
   CHECK(scene.grains->distribution[1].fraction == 0.34);
 
-  // a file that names only what has no default must mean the same: defaults of scene.hpp and the
-  // file can't drift apart
+  // A file with only the keys that have no default means the same, so that the defaults of
+  // scene.hpp and this file agree.
   const TemporaryFolder folder;
   const auto bare = folder.write("vibrated_box.toml",
                                  "[grains]\ncount = 1200\n[box]\nlength = 0.54\nwidth = 0.54\n");
@@ -122,13 +122,13 @@ force = { constant = [0, 0, 1], amplitude = [3, 0, 0], frequency = 2, phase = 0.
   const BodySpec& body = scene.bodies.at(0);
   CHECK(body.name == "slab");
   CHECK(body.mass == Approx(60.0).epsilon(1e-14));
-  // a box of sides a, b, c: m (b^2 + c^2)/12, ...
+  // A box with the sides a, b, c has m (b^2 + c^2)/12, ...
   CHECK(body.inertia.x() == Approx(60.0 * 13 / 12).epsilon(1e-13));
   CHECK(body.inertia.y() == Approx(60.0 * 10 / 12).epsilon(1e-13));
   CHECK(body.inertia.z() == Approx(60.0 * 5 / 12).epsilon(1e-13));
   CHECK((body.pose * Vec3(1, 0, 0) - Vec3(1, 3, 3)).norm() < 1e-14);
   CHECK(body.pose.rotation.norm() == Approx(1.0).epsilon(1e-15));
-  // spin is given in the world frame and kept in the body frame: the body's x axis is the world's y
+  // Spin is given in the world and stored in the body frame: the body's x axis is the world's y.
   CHECK((body.spin - Vec3(2, 0, 7)).norm() < 1e-14);
   CHECK((body.free == std::array{true, false, true} && body.free_rotation));
   CHECK(body.force.at(0.1).x() == Approx(3 * std::cos(2 * std::numbers::pi * 0.2 + 0.5)));
@@ -137,7 +137,7 @@ force = { constant = [0, 0, 1], amplitude = [3, 0, 0], frequency = 2, phase = 0.
 
 TEST_CASE("a mesh is placed by its own frame, scaled, and found beside the scene") {
   const TemporaryFolder folder;
-  // a box whose own origin is one of its corners
+  // A box with the origin at one of its corners.
   const Polyhedron centred = make_box(Vec3(1, 2, 3));
   std::vector<Vec3> corners(centred.vertices().begin(), centred.vertices().end());
   std::vector<std::vector<int>> faces;
@@ -160,7 +160,7 @@ position = [10, 0, 0]
   CHECK((bounds.min() - Vec3(10, 0, 0)).norm() < 1e-13);
   CHECK((bounds.max() - Vec3(10.5, 1, 1.5)).norm() < 1e-13);
 
-  // the resolved text finds the mesh from elsewhere
+  // The resolved text finds the mesh from another folder.
   const TemporaryFolder elsewhere;
   const std::string resolved = resolve_scene(folder.path() / "scene.toml").text;
   CHECK(read_scene(elsewhere.write("scene.toml", resolved)).bodies.size() == 1);
@@ -183,7 +183,7 @@ load = { f_min = 1, f_max = 3, frequency = 2 }
   CHECK(wall.offset == -2.0);
   CHECK(wall.friction == 0.3);
   CHECK(wall.motion == WallMotion::driven);
-  // Without grains what holds whatever the masses are is the default.
+  // Without grains the default solver is one for any mass ratio.
   CHECK((scene.solver.name == "auto" && scene.solver.max_iterations == 100000));
   CHECK(wall.mass == 5.0);
   CHECK(wall.load.at(0.125) == Approx(1.0));  // (3 + 1)/2 - (3 - 1)/2 sin(pi/2)
@@ -238,7 +238,7 @@ TEST_CASE("an edited mesh makes another scene; its time stamp and comments do no
   CHECK(keys() == before);
   std::ofstream(mesh, std::ios::app) << "# a note\n";
   CHECK(keys() == before);
-  // Other bits come of another order of the vertices.
+  // Another order of the vertices gives other bits.
   for (const Polyhedron& other :
        {make_box(Vec3(1, 2, std::nextafter(3.0, 4.0))), renumbered(make_box(Vec3(1, 2, 3)))}) {
     write_mesh(mesh, other);

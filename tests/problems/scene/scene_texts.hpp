@@ -1,5 +1,5 @@
 #pragma once
-// What several tests of scenes share: a text to begin with, and the error of a wrong one.
+// Common to several tests of scenes: a text to begin with, and the error of a wrong text.
 
 #include "problems/scene/scene_file.hpp"
 #include "tests/catch.hpp"
@@ -8,10 +8,10 @@
 
 namespace ballast {
 
-/// A wall is enough to be a scene.
+/// The shortest scene: a wall.
 inline const std::string one_wall = "[[wall]]\nnormal = [0, 0, 1]\n";
 
-/// The message of the error, in one line, that reading the text must end in.
+/// The message of the error, in one line, with which reading the text must end.
 inline std::string error_of(const TemporaryFolder& folder, const std::string& text,
                             const std::vector<std::string>& overrides = {}) {
   const std::string message =

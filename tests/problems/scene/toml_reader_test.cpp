@@ -1,5 +1,5 @@
-// A table read key by key, alone, how TOML is written, and overrides; whole scenes that are wrong
-// are in scene_errors_test.cpp.
+// A table read key by key, the TOML that is written, and overrides. Wrong scenes as a whole are in
+// scene_errors_test.cpp.
 
 #include "problems/scene/toml_reader.hpp"
 
@@ -23,7 +23,7 @@ TEST_CASE("what was read, defaults included, is the resolved table") {
   reader.read("a", &a, in(positive, "m"), Presence::required);
   reader.read("b", &b);
   reader.read("n", &n, whole(0, 9));
-  reader.read("quiet", &quiet, {}, Presence::only_where_given);  // as it is by default
+  reader.read("quiet", &quiet, {}, Presence::only_where_given);  // not given: has its default
   reader.read("absent", &absent, {}, Presence::only_where_given);
   reader.read("on", &on);
   reader.read("word", &word, one_of({"one", "two"}));

@@ -9,7 +9,7 @@ using namespace ballast;
 
 namespace {
 
-/// Heavy on light, with more contacts than the bodies' unknowns fix: what sweeps take long for.
+/// Heavy on light bodies, with more contacts than the unknowns determine: slow for sweeps.
 FrictionProblem heavy_pile(std::uint64_t seed, bool is_stored) {
   return make_pile({.contacts = 40,
                     .redundancy = 0.5,
@@ -45,7 +45,7 @@ TEST_CASE("where no contact closes, auto has nothing to solve", "[factors]") {
     CHECK(open.is_solved());
     CHECK(open.solved.iterations == 0);
     CHECK(open.solved.impulses.isZero(0.0));
-    rest[problem.row_begin[40]] -= 2e3;  // now one does
+    rest[problem.row_begin[40]] -= 2e3;  // makes one contact push
     const SolverRun closed = judged_by(make_auto(), problem, {.tolerance = 1e-9});
     CHECK(closed.is_solved());
     CHECK(closed.solved.impulses.norm() > 0.0);

@@ -45,20 +45,20 @@ FrictionProblem slender_pile(int contacts) {
   return make_pile({.contacts = contacts, .active = 1.0, .slenderness = 20.0, .seed = 3});
 }
 
-/// So many iterations of the backend, from no impulses: the last iterate, better or not.
+/// The last iterate after this number of iterations from no impulses, even if it is not the best.
 Impulses after(const FrictionProblem& problem, int iterations) {
   return from_rest(*make_nesterov_pgs(/*returns_best=*/false), problem,
                    {.tolerance = 0.0, .max_iterations = iterations})
       .impulses;
 }
 
-/// The same by the book: whole iterates and all squares kept, each sweep from x + beta (x - x
-/// before).
+/// The same by the formula: stores whole iterates and all squares, and starts each sweep from x +
+/// beta (x - x before).
 Impulses by_the_book(const FrictionProblem& problem, int iterations, int& restarts, int& limited) {
   AnySweep sweep;
   sweep.prepare(problem);
   Impulses x = Impulses::Zero(problem.row_count()), before = x, from = x;
-  std::vector<double> squares;  // of the search
+  std::vector<double> squares;  // since the search began
   for (int k = 0, vain = 0, rest = 0; k < iterations; ++k) {
     sweep->load(problem, from);
     sweep->sweep();
@@ -98,7 +98,7 @@ TEST_CASE("nesterov_pgs: its iterates are those of the formula, over bodies and 
       const Impulses expected = by_the_book(form, iterations, restarts, limited);
       CHECK((after(form, iterations) - expected).norm() <= 1e-11 * expected.norm());
     }
-    CHECK(restarts > 0);  // both rules have come into it
+    CHECK(restarts > 0);  // both rules were applied
     CHECK(limited > 0);
   }
 }
@@ -115,7 +115,7 @@ TEST_CASE("nesterov_pgs: a chain of bodies takes less than half of the sweeps wi
 }
 
 TEST_CASE("nesterov_pgs: where momentum goes round without end, plain sweeps come through") {
-  // Without rests 20,000 sweeps were not enough; plain ones need 12,900.
+  // Without rests 20,000 sweeps were not enough; plain sweeps need 12,900.
   const FrictionProblem problem = make_pile(random_pile(59, 300));
   const Budget budget{.tolerance = 1e-5 * velocity_scale(problem), .max_iterations = 20000};
   const Solved solved = from_rest(*make_nesterov_pgs(), problem, budget);
@@ -133,7 +133,7 @@ TEST_CASE(
       double least = solved.history.front().error;
       for (const HistoryPoint& point : solved.history) least = std::min(least, point.error);
       CAPTURE(problem == &pile, iterations);
-      CHECK(solved.own_residual <= 1.05 * least);  // one plain sweep follows the best
+      CHECK(solved.own_residual <= 1.05 * least);  // one plain sweep follows the best iterate
       CHECK(solved.history.back().error == solved.own_residual);
       CHECK(contact_error(*problem, solved.impulses).natural_map_rms ==
             Approx(solved.own_residual).epsilon(1e-6));
@@ -146,6 +146,6 @@ TEST_CASE("nesterov_pgs: a stored W that a few sweeps answer is looked at after 
   const Budget budget{.tolerance = 1e-4 * velocity_scale(problem), .keep_history = true};
   const Solved solved = from_rest(*make_nesterov_pgs(), problem, budget);
   CHECK(solved.reason == StopReason::reached_tolerance);
-  CHECK(solved.iterations < 8);       // the first look by schedule
-  CHECK(solved.history.size() <= 3);  // from rest, and no more than one look too early
+  CHECK(solved.iterations < 8);       // the first check by schedule
+  CHECK(solved.history.size() <= 3);  // at rest, and at most one check too early
 }

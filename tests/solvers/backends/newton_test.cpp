@@ -1,4 +1,4 @@
-// The Newton methods where they are hardest: more rows than the bodies' unknowns, unequal masses.
+// The Newton methods on the hardest problems: more rows than the bodies' unknowns, unequal masses.
 
 #include "platform/worker_team.hpp"
 #include "problems/algebra/known_solutions.hpp"
@@ -26,7 +26,7 @@ TEST_CASE("rank-deficient problems of unequal masses are solved, nearly all", "[
     const char* name;
     std::unique_ptr<Solver> (*make)();
     double tolerance, farthest;  ///< [m/s]
-    int iterations, least;       ///< seed by seed it is a matter of rounding which one stays
+    int iterations, least;       ///< rounding decides which seeds are not solved
   };
   const Method methods[] = {
       {"proximal Newton", [] { return make_proximal_newton(); }, 1e-8, 1e-4, 400, 19},
@@ -65,7 +65,7 @@ TEST_CASE("the proximal Newton sweeps a warm start as well, and never loses it",
   const Budget budget{.tolerance = 1e-6, .max_iterations = 50};
   for (const bool accelerated : {false, true}) {
     const ProximalNewtonSettings settings{.start_sweeps = 2000, .accelerated = accelerated};
-    // Sweeps are enough, and they are not counted.
+    // Sweeps are enough, and do not count as iterations.
     const SolverRun run =
         judged_by(make_proximal_newton(settings), known.problem, budget, 0.5 * known.r);
     CHECK(run.is_solved());

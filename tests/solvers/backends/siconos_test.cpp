@@ -1,5 +1,5 @@
-// Siconos' own measure is asked of it as it stands, and a comparison's child calls it without
-// another process.
+// Siconos' own measure is used as it is, and the child process of a comparison calls Siconos
+// without another process.
 
 #include "platform/pack.hpp"
 #include "platform/program.hpp"
@@ -41,7 +41,7 @@ TEST_CASE("Siconos stops on its own measure, where it was asked to") {
 
 TEST_CASE("An answer that Siconos is just content with is not sent back for another round") {
   if (!make_siconos(SiconosMethod::nsgs)) return;
-  // Every sweep takes 1/2000 of the error: it stops within the hair below the tolerance.
+  // Every sweep removes 1/2000 of the error: it stops barely below the tolerance.
   const FrictionProblem problem = mass_stack({1.0, 2000.0}, 3).problem;
   const SolverRun run = solved_to(problem, SiconosMethod::nsgs_full, 1e-5),
                   further = solved_to(problem, SiconosMethod::nsgs_full, 0.9e-5);
@@ -66,13 +66,13 @@ TEST_CASE("In a child that may be lost Siconos is called as it is: the same bits
     unpacker.list(there);
     unpacker.finish();
     CHECK(there == here.solved.impulses);
-    CHECK(here.startup_seconds > 0.0);  // W in its form, a process, the judge
+    CHECK(here.startup_seconds > 0.0);  // W in Siconos' form, a process, the judge
   }
 }
 
 TEST_CASE("Siconos' Newton goes on with a sparse W where it circles with a dense one") {
   if (!make_siconos(SiconosMethod::nsgs)) return;
-  // 41 contacts: a dense W is the faster, but thousands of steps with it do not end.
+  // 41 contacts: with a dense W a step is faster, but thousands of steps do not converge.
   const FrictionProblem problem = make_pile(random_pile(304, 60));
   FclibStop stop(problem, 1e-4);
   Budget budget{.tolerance = 0.0, .max_iterations = 4000};

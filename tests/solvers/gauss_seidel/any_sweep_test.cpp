@@ -24,7 +24,7 @@ std::vector<FrictionProblem> problems() {
   return all;
 }
 
-/// Ten sweeps in either form beside those of dense matrices. `dense`: in the dynamics form.
+/// Compares ten sweeps in either form with those of dense matrices. `dense`: in the dynamics form.
 void check_sweeps(const FrictionProblem& given, const FrictionProblem& dense) {
   const Eigen::MatrixXd w = oracle::dense_delassus(dense);
   const Eigen::VectorXd q = oracle::dense_q(dense);
@@ -55,8 +55,8 @@ TEST_CASE("a sweep over bodies, and over W, is the textbook's") {
 TEST_CASE("W by whole blocks and entry by entry gives the same bits") {
   FrictionProblem whole =
       only_delassus(make_known_solution({.frictionless_fraction = 0.0}).problem);
-  // Zeros that a block stores, and the same W without them. Every block keeps its first row, which
-  // says where it stands among the others.
+  // The blocks store zeros; a second W has none of them. Every block keeps its first row, which
+  // gives its place among the others.
   SparseRows& w = whole.delassus.w;
   for (int row = 1; row < whole.row_count(); row += 3)
     for (SparseRows::InnerIterator entry(w, row); entry; ++entry)
@@ -77,7 +77,7 @@ TEST_CASE("W by whole blocks and entry by entry gives the same bits") {
 }
 
 TEST_CASE("contacts and bodies of every kind: loaded and stored alike, but for what cannot move") {
-  const FrictionProblem mixed = oracle::mixed_problem();  // contact 4: nothing moves
+  const FrictionProblem mixed = oracle::mixed_problem();  // contact 4 cannot move
   for (const FrictionProblem& problem : {mixed, only_delassus(mixed)}) {
     AnySweep sweep;
     sweep.prepare(problem);

@@ -1,7 +1,7 @@
 #pragma once
 // Problems of the kind that a time step gives, for the wide sweep: grains along a line, contacts
-// between near ones, contacts with what does not move on either side, one-row contacts, a driven
-// wall. And a wide sweep of one.
+// between near ones, contacts with unmoved things on either side, one-row contacts, a driven wall.
+// Also a wide sweep of such a problem.
 
 #include <Eigen/Dense>
 
@@ -45,7 +45,7 @@ class GrainProblem {
   FrictionProblem problem;
 
  private:
-  /// diag(m, m, m, J), J a full block for every second grain; 1 cm to the surface.
+  /// diag(m, m, m, J), where J is a full block for every second grain; the radius is 1 cm.
   Eigen::MatrixXd grain_mass(double m) {
     Eigen::Matrix3d root = Eigen::Matrix3d::Identity();
     if (problem.dynamics.body_count() % 2)
@@ -80,12 +80,12 @@ inline FrictionProblem grain_problem(const GrainSettings& settings = {}) {
   return GrainProblem(settings).problem;
 }
 
-/// The steps of a search before its k-th sweep: none, along the last change, then momentum besides.
+/// A search's step before its k-th sweep: zero, then along the last change, later with momentum.
 inline SearchStep varied_step(int k) {
   return {k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0, k < 9 ? 0.0 : 0.4};
 }
 
-/// A wide sweep from zero impulses, in single precision or not.
+/// A wide sweep from zero impulses, in double or single precision.
 struct Wide {
   SweepPlan plan;
   WorkerTeam team;

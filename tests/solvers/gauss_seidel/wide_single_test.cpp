@@ -1,5 +1,5 @@
-// Sweeps in single precision that are made good in double at every look; groups of open contacts
-// that are passed over between two looks.
+// Sweeps in single precision that are corrected in double at every check; groups of open contacts
+// that are skipped between two checks.
 
 #include <cmath>
 
@@ -17,8 +17,8 @@ using samples::Wide;
 namespace {
 
 /// Contacts just outside their cones whose guess lies beyond a pole of the slip equation: two
-/// Newton steps from there overflow in single precision. One such contact of a run's 4062 ended it.
-/// Their bodies do not matter: in the first sweep the biases say which impulses would stop them.
+/// Newton steps from there overflow in single precision. One such contact of 4062 ended a run.
+/// Their bodies do not matter: in the first sweep the biases determine the impulses that stop them.
 template <typename Number, typename Loops>
 void check_far_guesses(const Loops& loops, double accuracy) {
   constexpr double s2 = 5.48044634, c1 = 0.563586771, c2 = -0.0149795767, mu = 0.171148002;
@@ -42,7 +42,7 @@ void check_far_guesses(const Loops& loops, double accuracy) {
     double squares[2];
     loops.sweep({{&group, &impulses, nullptr, nullptr, 1}, {}}, nullptr, &still, squares);
     for (int lane = 0; lane < group_lanes; ++lane) {
-      // They slide: |t| = mu N.
+      // The contact slides: |t| = mu N.
       const double t1 = impulses.y[1][lane], t2 = impulses.y[2][lane],
                    n = impulses.y[0][lane] - c1 * t1 - c2 * t2;
       const double miss = (std::hypot(t1, t2) - mu * n) / n;
@@ -52,14 +52,14 @@ void check_far_guesses(const Loops& loops, double accuracy) {
   }
 }
 
-/// A row of bodies, the first of which runs at 1 m/s into the second, which rests against the third
-/// and so on; the last one has a gap before it. The first share their speed out until that gap has
-/// to close. Contacts are numbered from the row's end, so that each sweep takes the push one body
-/// further. Beside them other contacts that are solved by the first sweep: some closed, most open.
+/// A row of bodies: the first runs at 1 m/s into the second, which rests against the third, and so
+/// on; there is a gap before the last. The first bodies share out their speed until that gap
+/// closes. Contacts are numbered from the row's end, so that each sweep carries the push one body
+/// further. The first sweep solves all other contacts: some closed, most open.
 struct RowOfBodies {
   static constexpr int bodies = 9, closed = 249, open = 14000;  // beyond far_bytes
   static constexpr int gap =
-      bodies - 2 + closed;  ///< the contact with the gap: groups before it are full
+      bodies - 2 + closed;  ///< the contact with the gap; the groups before it are full
   FrictionProblem problem;
 
   RowOfBodies() {
@@ -134,7 +134,7 @@ TEST_CASE("single: a guess that overflows is not taken for a slip root") {
 
 TEST_CASE("single: leaves by itself where its rounding would show") {
   const FrictionProblem problem =
-      grain_problem({.grains = 600, .contacts = 300, .reach = 300, .seed = 4});  // few are joined
+      grain_problem({.grains = 600, .contacts = 300, .reach = 300, .seed = 4});  // few contacts
   Wide single(problem, true);
   single.sweep.sweep();
   CHECK(single.sweep.is_single());
@@ -157,7 +157,7 @@ TEST_CASE("single: loaded impulses are stored as they were; the last sweep is in
   single.sweep.store(problem, r);
   exact.sweep.store(problem, expected);
   CHECK(r == expected);
-  CHECK_FALSE(single.sweep.finish_in_double());  // no sweep yet
+  CHECK_FALSE(single.sweep.finish_in_double());  // not before a sweep
   single.sweep.load(problem, start);
   for (int k = 0; k < 30; ++k) single.sweep.sweep();
   CHECK(single.sweep.error() > 0.0);
@@ -169,12 +169,12 @@ TEST_CASE("single: loaded impulses are stored as they were; the last sweep is in
   CHECK(single.sweep.error() == Approx(error.natural_map_rms).epsilon(1e-9));
   single.sweep.load(problem, start);
   single.sweep.sweep();
-  CHECK(single.sweep.is_single());  // begins again
+  CHECK(single.sweep.is_single());  // single again after load()
 }
 
 TEST_CASE("single: open contacts that rest change no bit") {
   FrictionProblem problem = grain_problem({.grains = 1200, .contacts = 5000, .seed = 9});
-  // A third of them have gaps.
+  // A third of the contacts have gaps.
   Random random(9);
   for (int c = 0; c < problem.contact_count(); ++c)
     if (random.below(3) == 0)
@@ -193,7 +193,7 @@ TEST_CASE("single: open contacts that rest change no bit") {
       resting = std::max(resting, rests.sweep.resting_groups());
       CHECK(all.sweep.resting_groups() == 0);
     }
-    CHECK(resting > 40);  // of some 400
+    CHECK(resting > 40);  // of about 400
     Impulses r, expected;
     rests.sweep.store(problem, r);
     all.sweep.store(problem, expected);
@@ -220,7 +220,7 @@ TEST_CASE("single: a contact that has to close while it rests is seen by the nex
   for (int k = 0; k < 100; ++k)
     for (Wide* of : {&sweep, &all}) of->sweep.sweep();
   CHECK(impulse(all) > 0.01);
-  CHECK(impulse(sweep) == 0.0);  // it rested
+  CHECK(impulse(sweep) == 0.0);  // its group rested
   for (int k = 0; k < 200; ++k) sweep.sweep.sweep();
   CHECK(impulse(sweep) == Approx(0.125 - 0.1).epsilon(0.2));
   CHECK(contact_error(row.problem, r).natural_map_rms < 1e-6);
@@ -255,7 +255,7 @@ TEST_CASE("nncg stops soon after its tolerance is reached, after few looks at th
       REQUIRE(solved.iterations > 10);
       CHECK(solved.history.size() < 6.0 + std::log(solved.iterations) / std::log(1.25));
       ++solves;
-      // A tenth fewer would not have been enough.
+      // Nine tenths of the iterations are seldom enough.
       with_fewer +=
           solve(tolerance, solved.iterations * 9 / 10).reason != StopReason::iteration_limit;
     }

@@ -17,7 +17,7 @@ using samples::Wide;
 
 namespace {
 
-/// Plain sweeps, searches along what the last sweeps changed, and momentum.
+/// Plain sweeps, searches along the change of the last sweeps, and momentum.
 constexpr SearchStep all_search_steps[] = {{0.0, 0.0},      {0.0, 1.0},     {0.7, 1.0},
                                            {0.3, 1.0},      {0.0, 1.0},     {0.9, 1.0},
                                            {0.5, 0.0, 0.5}, {0.6, 0.2, 0.3}};
@@ -26,9 +26,9 @@ Impulses start_of(const FrictionProblem& problem) {
   return Impulses::Constant(problem.row_count(), 1e-5);
 }
 
-/// An order that gives what groups give: the plan's, but in each part contacts on the driven wall
-/// come last. It holds while no grain has a second contact with the wall, which would wait for a
-/// later group.
+/// An order with the result of groups: the plan's, but in each part the contacts on the driven wall
+/// come last. It holds if no grain has a second contact with the wall, which would have to wait for
+/// a later group.
 std::vector<int> group_order(const SweepPlan& plan, const FrictionProblem& problem) {
   const DynamicsForm& d = problem.dynamics;
   std::vector<int> order = plan.contacts();
@@ -41,8 +41,8 @@ std::vector<int> group_order(const SweepPlan& plan, const FrictionProblem& probl
 
 double difference(const Impulses& x, const Impulses& y) { return (x - y).norm() / y.norm(); }
 
-/// Contacts that have grains of their own: one sweep solves each of them. Velocities over three
-/// decades.
+/// Contacts whose grains have no other contact: one sweep solves each of them. The velocities cover
+/// three decades.
 FrictionProblem contacts_apart(std::uint64_t seed) {
   samples::GrainSettings settings{.grains = 640, .contacts = 320, .has_wall = false, .seed = seed};
   FrictionProblem problem = grain_problem(settings);
@@ -55,7 +55,7 @@ FrictionProblem contacts_apart(std::uint64_t seed) {
     for (int k = 12 * c; k < 12 * (c + 1); ++k) d.v_free[k] = size * random.uniform(-1.0, 1.0);
   }
   d.bias.setZero();
-  for (double& mu : problem.friction) mu *= 3.0;  // more of them stick
+  for (double& mu : problem.friction) mu *= 3.0;  // so that more of them stick
   return problem;
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("wide: every status of the law is met, and each contact solved to roun
     wide.sweep.load(problem, r);
     wide.sweep.sweep();
     wide.sweep.store(problem, r);
-    CHECK(contact_error(problem, r).natural_map_max <= 1e-14);  // of velocities up to 1 m/s
+    CHECK(contact_error(problem, r).natural_map_max <= 1e-14);  // velocities are up to 1 m/s
     CHECK(contact_error(problem, r).cone_violation <= 1e-15 * r.norm());
     Eigen::VectorXd u;
     contact_velocity(problem, r, u);
@@ -152,7 +152,7 @@ TEST_CASE("wide: a sweep along a search moves the whole iterate by the same step
   fast.sweep.start_search();
   for (const SearchStep step : all_search_steps) {
     const double square = fast.sweep.sweep_along(step);
-    // The twin: the formula on the impulses, from which the velocities follow.
+    // The twin: the formula on the impulses, which determine the velocities.
     const Impulses along = step.beta * direction + step.ahead * (x - before);
     direction = along + step.gain * (x - before);
     before = x + along;
@@ -185,13 +185,13 @@ TEST_CASE("wide: says of other problems that it cannot take them") {
   const FrictionProblem good = grain_problem({});
   CHECK(fits(good));
   FrictionProblem other = good;
-  other.dynamics.mass[1] = other.dynamics.mass[6] = 1e-7;  // linear unknowns coupled
+  other.dynamics.mass[1] = other.dynamics.mass[6] = 1e-7;  // couples linear unknowns
   CHECK_FALSE(fits(other));
   other = good;
   other.dynamics.mass[0] *= 1.0 + 1e-15;
   CHECK_FALSE(fits(other));
   other = good;
-  for (int c = 0; c < other.contact_count(); ++c) {  // one side's linear part not opposite
+  for (int c = 0; c < other.contact_count(); ++c) {  // on one side the linear part is not opposite
     const DynamicsForm& d = other.dynamics;
     if (d.body_a[c] < 0 || d.body_b[c] < 0 || d.body_dofs(d.body_b[c]) != 6) continue;
     other.dynamics.h[d.h_begin[c]] += 1e-9;
@@ -199,7 +199,7 @@ TEST_CASE("wide: says of other problems that it cannot take them") {
   }
   CHECK_FALSE(fits(other));
   CHECK_FALSE(fits(make_known_solution({}).problem));
-  // Two walls in contact: both would want to pass through the lanes.
+  // Two walls in contact: both would have to go through the lanes.
   other = good;
   const int second = other.dynamics.add_body(Eigen::MatrixXd::Constant(1, 1, 0.5));
   other.add_contact(second - 1, second, 0.0, Eigen::MatrixXd::Constant(1, 1, -1.0),
@@ -209,6 +209,6 @@ TEST_CASE("wide: says of other problems that it cannot take them") {
   other.dynamics.bias.conservativeResize(other.row_count());
   other.dynamics.bias.tail<1>().setZero();
   CHECK_FALSE(fits(other));
-  // All contacts on one grain: groups of one.
+  // All contacts are on one grain: groups of one contact.
   CHECK_FALSE(fits(grain_problem({.grains = 2, .contacts = 100, .has_wall = false})));
 }

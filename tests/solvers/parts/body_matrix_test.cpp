@@ -1,4 +1,4 @@
-// M + H^T E H by blocks, beside the same in dense matrices.
+// M + H^T E H by blocks, compared with dense matrices.
 
 #include "solvers/parts/body_matrix.hpp"
 
@@ -11,7 +11,7 @@ using namespace ballast;
 
 namespace {
 
-/// Unsymmetric, regular blocks; of one row: entry 0,0 and what must not be read.
+/// Unsymmetric, regular blocks. In those of one-row contacts only entry 0,0 may be read.
 std::vector<Eigen::Matrix3d> some_gains(const FrictionProblem& problem) {
   std::vector<Eigen::Matrix3d> gain(problem.contact_count());
   double next = 0.53;  // logistic map
@@ -33,7 +33,7 @@ Eigen::MatrixXd dense_matrix(const FrictionProblem& problem,
   return oracle::dense_mass(problem) + h.transpose() * middle * h;
 }
 
-/// Some contacts open, some stick, some slip (unsymmetric).
+/// The gains of contacts that are open, stick or slip by turns; those of slip are unsymmetric.
 std::vector<Eigen::Matrix3d> mixed_gains(int contacts, double stiffness, std::uint64_t seed) {
   Random random(seed);
   std::vector<Eigen::Matrix3d> gains;
@@ -87,12 +87,12 @@ TEST_CASE("where a pivot vanishes rows are exchanged, and a singular matrix is r
     return std::vector<Eigen::Matrix3d>{first * Eigen::Matrix3d::Identity(),
                                         second * Eigen::Matrix3d::Identity()};
   };
-  // [2 + e1, e1; e1, 2 + e1 + e2]: e1 = -2, e2 = 0 leaves zeros on the diagonal
+  // [2 + e1, e1; e1, 2 + e1 + e2]: e1 = -2, e2 = 0 leaves zeros on the diagonal.
   CHECK_FALSE(matrix.factor(gains(-2.0, 0.0)));
   REQUIRE(matrix.solve(gains(-2.0, 0.0), b, x));
   CHECK(x[0] == Approx(-1.5));
   CHECK(x[1] == Approx(-0.5));
-  // e1 = -1, e2 = 0: [1, -1; -1, 1]
+  // e1 = -1, e2 = 0: [1, -1; -1, 1].
   CHECK_FALSE(matrix.solve(gains(-1.0, 0.0), b, x));
 }
 

@@ -11,7 +11,7 @@ TEST_CASE("the program's units: blocks of largest eigenvalue one, q of largest e
   const FrictionProblem problem = oracle::mixed_problem();
   ConeProgram program;
   program.take(problem);
-  CHECK(program.contact_count() == 6);  // one of seven does not move
+  CHECK(program.contact_count() == 6);  // one of the seven does not move
   CHECK(program.q.lpNorm<Eigen::Infinity>() == Approx(1.0));
   const Eigen::MatrixXd w(program.w);
   CHECK((w - w.transpose()).norm() == 0.0);
@@ -27,7 +27,7 @@ TEST_CASE("a convex solver with the s-update around it comes to Coulomb's law") 
   const KnownSolution known = make_known_solution({.bodies = 20, .contacts = 15});
   ConeProgram program;
   program.take(known.problem);
-  // Projected gradient, to the end: slow, obvious.
+  // Projected gradient until it converges: slow and simple.
   const auto convex = [&](const ConeRequest& request, RoundAnswer& answer) {
     Eigen::VectorXd x = request.start;
     for (int k = 0; k < 3000; ++k) {

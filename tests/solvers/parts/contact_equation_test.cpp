@@ -18,7 +18,7 @@ Vector3d random_vector(Random& random, double size) {
                   random.uniform(-size, size));
 }
 
-/// A pair that obeys the law: open, sticking or slipping by turns.
+/// A pair r, u that obeys the law: open, sticking or slipping for `kind` 0, 1, 2.
 void lawful(Random& random, double mu, int kind, Vector3d& r, Vector3d& u) {
   r = u = Vector3d::Zero();
   const double angle = random.uniform(0.0, 6.283), n = random.uniform(0.1, 2.0);
@@ -41,12 +41,12 @@ TEST_CASE("every contact equation vanishes exactly where the law holds") {
                    rho = random.uniform(0.1, 10.0);
       Vector3d r, u;
       lawful(random, mu, i % 3, r, u);
-      CHECK(linearise(equation, r, u, mu, rho).f.norm() < 1e-7);  // FB: a square root of rounding
+      CHECK(linearise(equation, r, u, mu, rho).f.norm() < 1e-7);  // FB: root of rounding errors
       r += random_vector(random, 0.5);
       u += random_vector(random, 0.5);
       const double natural = natural_map(r, u, mu, 1.0).norm();
       const double value = linearise(equation, r, u, mu, rho).f.norm();
-      // small together, large together: by a factor that rho and 1/mu^2 may reach
+      // Both are small or large together, within a factor that rho and 1/mu^2 may reach.
       CHECK(value < 1e4 * (natural + 1e-7));
       CHECK(natural < 1e4 * (value + 1e-7));
     }
@@ -56,7 +56,7 @@ TEST_CASE("derivatives of the contact equations, by differences") {
   Random random(11);
   const double step = 1e-6;
   for (const ContactEquation equation : equations) {
-    int rough = 0;  // a kink within the difference
+    int rough = 0;  // kinks within the difference
     for (int i = 0; i < 3000; ++i) {
       const double mu = i % 7 == 0 ? 0.0 : random.uniform(0.1, 1.5), rho = random.uniform(0.2, 5.0);
       const Vector3d r = random_vector(random, 1.0), u = random_vector(random, 1.0);

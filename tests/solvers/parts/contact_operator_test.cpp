@@ -10,7 +10,7 @@ using namespace ballast;
 
 namespace {
 
-/// Both forms of a problem with contacts and bodies of every kind, and of a rank-deficient one.
+/// Both forms of a problem with all kinds of contacts and bodies, and of a rank-deficient one.
 std::vector<FrictionProblem> problems() {
   std::vector<FrictionProblem> all{oracle::mixed_problem(),
                                    make_known_solution({.contacts = 80}).problem};
@@ -18,7 +18,7 @@ std::vector<FrictionProblem> problems() {
   return all;
 }
 
-/// Some impulses in the cones, some outside.
+/// Impulses, some inside their cones, some outside.
 Impulses some_impulses(const FrictionProblem& problem) {
   Impulses r(problem.row_count());
   for (int i = 0; i < r.size(); ++i) r[i] = std::sin(1.7 * i) + (i % 3 == 0 ? 0.5 : 0.0);

@@ -19,7 +19,7 @@ Eigen::MatrixXd random_matrix(int rows, int columns, std::uint64_t seed) {
   return a;
 }
 
-/// The slow twin: every entry one sum over k in order, taken off in pieces of 256.
+/// The slow twin: every entry is a sum over k in order, subtracted in pieces of 256.
 void subtract_plainly(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c) {
   for (int from = 0; from < a.cols(); from += 256)
     for (int j = 0; j < c.cols(); ++j)
@@ -43,7 +43,7 @@ TEST_CASE("products have the bits of plain loops, on every instruction set and a
                                 {25, 0, 2}})
     for (const DenseKernels& kernels : dense_kernels()) {
       CAPTURE(m, n, k, kernels.instruction_set);
-      // Blocks of larger matrices: what lies beside them stays.
+      // The matrices are blocks of larger ones, whose other entries must not change.
       const Eigen::MatrixXd a = random_matrix(m, k, 1), b = random_matrix(k, n, 2);
       Eigen::MatrixXd frame_a = random_matrix(m + 3, k, 5), frame_b = random_matrix(k + 2, n, 6),
                       frame = random_matrix(m + 5, n + 1, 3);

@@ -16,9 +16,9 @@ struct Blocks {
   std::vector<int> begin{0};
 };
 
-/// I + H^T K H of `bodies` bodies of 1 to 6 unknowns, some at random places joined by `contacts`
-/// random contacts of three rows. K = `stiffness` times the identity, and where `slips` like that
-/// of a sliding contact: singular and unsymmetric.
+/// I + H^T K H of `bodies` bodies of 1 to 6 unknowns, joined in random unknowns by `contacts`
+/// random contacts of three rows. K is `stiffness` times the identity, or with `slips` like that of
+/// a sliding contact: singular and unsymmetric.
 Blocks newton_matrix(int bodies, int contacts, double stiffness, bool slips, std::uint64_t seed) {
   Random random(seed);
   Blocks blocks;
@@ -54,8 +54,8 @@ double relative_residual(const SparseColumns& a, const Eigen::VectorXd& x,
   return (a * x - b).norm() / (a.norm() * x.norm() + b.norm());
 }
 
-/// Branches and trunk hold every front once, no branch is large, and only through the trunk does
-/// one branch depend on another.
+/// Checks that branches and trunk together hold every front once, that no branch is large, and that
+/// branches depend on each other only through the trunk.
 void check_shared_out(const FrontTree& tree) {
   std::vector<int> branch_of(tree.fronts.size(), -1);
   const auto work_of = [&](int first, int end) {
@@ -181,8 +181,8 @@ TEST_CASE("a breakdown is reported, and the next matrix is factored", "[factors]
   const Blocks good = newton_matrix(30, 60, 1.0, false, 6);
   FrontLu fronts;
   fronts.analyse(good.a, good.begin);
-  // Rank one less, exactly and up to rounding: the last unknown's row and column are a mean of two
-  // others'.
+  // The rank is lower by one, exactly and up to rounding: the last unknown's row and column are a
+  // mean of those of two others.
   const int n = static_cast<int>(good.a.rows());
   for (const double part : {1.0, 0.7}) {
     Eigen::MatrixXd dense = Eigen::MatrixXd(good.a);

@@ -39,7 +39,7 @@ BlockGraph random_graph(int nodes, int edges, std::uint64_t seed) {
   return graph_of(sizes, pairs);
 }
 
-/// The slow twin: which entries are not zero after eliminating unknowns one by one, by place.
+/// The slow twin: the pattern of nonzeros after eliminating the unknowns one by one, by position.
 std::vector<std::vector<bool>> filled(const BlockGraph& graph, const FrontTree& tree) {
   const int n = graph.unknown_count();
   std::vector<std::vector<bool>> full(n, std::vector<bool>(n, false));
@@ -131,11 +131,11 @@ TEST_CASE("a clique is one front, a star's leaves keep theirs") {
   }
   const std::vector<int> sizes(12, 6);
   std::vector<int> order(12);
-  std::iota(order.rbegin(), order.rend(), 0);  // the centre last
+  std::iota(order.rbegin(), order.rend(), 0);  // the centre is last
   CHECK(make_front_tree(graph_of(sizes, clique), order).fronts.size() == 1);
   const FrontTree leaves = make_front_tree(graph_of(sizes, star), order);
   CHECK(leaves.fronts.size() >= 10);
   CHECK(leaves.fronts.back().child_count == static_cast<int>(leaves.fronts.size()) - 1);
-  CHECK(leaves.trunk.empty());  // small: one branch
+  CHECK(leaves.trunk.empty());  // a small tree is one branch
   CHECK(leaves.branches.size() == 1);
 }

@@ -1,4 +1,4 @@
-// LMGC90's rule beside a dense twin of it, and a backend that is stopped by it.
+// The rule of LMGC90 against its dense twin, and a backend that it stops.
 
 #include "solvers/parts/local_change.hpp"
 
@@ -14,8 +14,8 @@ using namespace ballast;
 
 namespace {
 
-/// The norms as LMGC90 adds them up: velocities u = W r + q by a dense product, one contact after
-/// the other against all others, each sum by itself.
+/// The norms as LMGC90 sums them: velocities u = W r + q by a dense product, each contact solved
+/// against all others, each sum by itself.
 ChangeNorms slow_norms(const FrictionProblem& problem, const Impulses& r) {
   const Eigen::MatrixXd w = oracle::dense_delassus(problem);
   const Eigen::VectorXd q = oracle::dense_q(problem), u = w * r + q;
@@ -29,7 +29,7 @@ ChangeNorms slow_norms(const FrictionProblem& problem, const Impulses& r) {
     const Eigen::VectorXd free = u.segment(begin, rows) - block * old;
     const Eigen::VectorXd d = u.segment(begin, rows) - (block * now + free);
     const Eigen::VectorXd m = (old + now) / 2.0;
-    if (m.norm() == 0.0 || block.norm() == 0.0) continue;  // carries nothing; nothing moves it
+    if (m.norm() == 0.0 || block.norm() == 0.0) continue;  // has no impulse, or cannot move
     d2.push_back(d.squaredNorm());
     m2.push_back(m.squaredNorm());
     md.push_back(m.dot(d));
@@ -110,7 +110,7 @@ TEST_CASE("pgs under the rule stops where dense sweeps do that are looked at as 
   constexpr int every = 7;
   constexpr double tolerance = 1e-3;
   const FrictionProblem& problem = known.problem;
-  // The twin: dense sweeps, and the dense norms after every seventh.
+  // The twin: dense sweeps, and the dense norms after every seventh sweep.
   const Eigen::MatrixXd w = oracle::dense_delassus(problem);
   const Eigen::VectorXd q = oracle::dense_q(problem);
   Impulses slow = Impulses::Zero(problem.row_count());

@@ -8,7 +8,7 @@ using lorentz::Vector;
 
 namespace {
 
-/// Inside the cone, at a relative distance `depth` from its side.
+/// A vector inside the cone, at a relative distance `depth` from its side.
 Vector inside(Random& random, double depth) {
   const double angle = random.uniform(0.0, 6.28), size = random.log_uniform(1e-3, 1e3);
   return size * Vector(1.0 + depth, std::cos(angle), std::sin(angle));

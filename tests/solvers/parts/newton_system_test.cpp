@@ -10,8 +10,8 @@ using namespace ballast;
 
 namespace {
 
-/// Blocks without a pattern, regular together with alpha; nothing presses this share of the
-/// contacts.
+/// Blocks without a pattern that are regular together with alpha. The share `idle` of the contacts
+/// has by_u = 0.
 std::vector<ContactLinearisation> some_blocks(const FrictionProblem& problem, double idle = 0.0) {
   std::vector<ContactLinearisation> linear(problem.contact_count());
   double next = 0.41;  // logistic map
@@ -32,7 +32,7 @@ std::vector<ContactLinearisation> some_blocks(const FrictionProblem& problem, do
   return linear;
 }
 
-/// (by_r + by_u (W + alpha)) dr + f, in dense matrices.
+/// The norm of (by_r + by_u (W + alpha)) dr + f, by dense matrices.
 double residual(const FrictionProblem& problem, const Eigen::MatrixXd& w,
                 const std::vector<ContactLinearisation>& linear, const std::vector<double>& alpha,
                 const Impulses& dr) {
@@ -49,7 +49,7 @@ double residual(const FrictionProblem& problem, const Eigen::MatrixXd& w,
   return std::sqrt(sum);
 }
 
-/// One set of blocks after another: the pattern stays. `w`: of the whole problem.
+/// Solves with several sets of blocks in one pattern. `w`: the W of the whole problem.
 void check_solves(const FrictionProblem& problem, const Eigen::MatrixXd& w,
                   const std::vector<ContactLinearisation>& linear) {
   ContactOperator op;
@@ -111,7 +111,7 @@ TEST_CASE("Newton's system of a stored W: few rows, nearly full, sparse, one row
       only_delassus(make_known_solution({.frictionless_fraction = 0.4}).problem);
   for (int i = 0; i < unsymmetric.delassus.w.nonZeros(); i += 3)
     unsymmetric.delassus.w.valuePtr()[i] *= 1.05;
-  // Dense: few rows; dense: W is nearly full; sparse.
+  // Solved dense because of few rows, dense because W is nearly full, and sparse.
   for (const FrictionProblem& problem :
        {stored_pile(30, 0.5), stored_pile(150, 0.8), stored_pile(200, 0.0), unsymmetric})
     for (const double idle : {0.0, 0.4, 1.0}) {

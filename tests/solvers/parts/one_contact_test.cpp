@@ -9,8 +9,8 @@ using Eigen::Matrix3d, Eigen::Vector3d;
 
 namespace {
 
-/// Symmetric positive definite, turned at random, eigenvalues `scale`, something between, and scale
-/// / condition.
+/// Symmetric positive definite with random axes. Its eigenvalues are `scale`, scale / condition,
+/// and one between them.
 Matrix3d random_w(double condition, double scale, Random& random) {
   Matrix3d a;
   for (double& x : a.reshaped()) x = random.uniform(-1, 1);
@@ -23,7 +23,7 @@ Matrix3d random_w(double condition, double scale, Random& random) {
   return 0.5 * (w + w.transpose());
 }
 
-/// Mostly approaching; now and then almost purely tangential or almost purely normal.
+/// Mostly approaching, sometimes almost purely tangential or almost purely normal.
 Vector3d random_q(double scale, Random& random) {
   Vector3d q(random.uniform(-1, 0.3), random.uniform(-1, 1), random.uniform(-1, 1));
   const double kind = random.uniform();
@@ -39,7 +39,7 @@ double random_mu(Random& random) {
   return kind < 0.7 ? random.uniform() : random.uniform(0.0, 10.0);
 }
 
-/// Scaled natural map over what the rounding of u = W r + q leaves to be seen: |q| + lambda_max
+/// The scaled natural map over the size of the rounding errors of u = W r + q: |q| + lambda_max
 /// |r|.
 double relative_error(const Matrix3d& w, const Vector3d& q, double mu, const Vector3d& r) {
   const double lambda_max = largest_eigenvalue(w);
@@ -102,7 +102,7 @@ TEST_CASE("a guess, good or bad, does not change a unique solution") {
   for (int k = 0; k < 50000; ++k) {
     const Matrix3d w = random_w(10.0, 1.0, random);
     const Vector3d q = random_q(1.0, random);
-    const double mu = random.uniform(0.0, 0.3);  // little friction and a tame W: one solution
+    const double mu = random.uniform(0.0, 0.3);  // small mu and condition of W: one solution
     Vector3d cold, warm;
     double lambda = 0.0;
     const ContactStatus status = solve_one_contact(w, q, mu, cold, lambda);
@@ -117,7 +117,7 @@ TEST_CASE("a guess, good or bad, does not change a unique solution") {
 TEST_CASE("singular W") {
   Random random(44);
   for (int k = 0; k < 100000; ++k) {
-    // Rank 1 or 2, q in the range of W: a contact whose bodies have few unknowns.
+    // Rank 1 or 2 with q in the range of W: a contact whose bodies have few unknowns.
     Eigen::Matrix<double, 3, 2> half;
     for (double& x : half.reshaped()) x = random.uniform(-1, 1);
     if (k % 2 == 0) half.col(1) *= k % 4 == 0 ? 0.0 : 1e-9;
@@ -137,7 +137,7 @@ TEST_CASE("what nothing can move is left alone") {
   double lambda = 0.0;
   CHECK(solve_one_contact(Matrix3d::Zero(), {-1, 2, 3}, 0.5, r, lambda) == ContactStatus::open);
   CHECK(r == Vector3d::Zero());
-  // No motion along the normal: whatever the tangents do, no impulse obeys the law but zero.
+  // Nothing moves along the normal: only the zero impulse obeys the law, whatever the tangents do.
   CHECK(solve_one_contact(Vector3d(0, 1, 2).asDiagonal(), {0, 1, 1}, 0.5, r, lambda) ==
         ContactStatus::open);
   CHECK(r == Vector3d::Zero());

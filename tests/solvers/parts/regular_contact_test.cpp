@@ -21,7 +21,7 @@ constexpr double epsilon = 1e-2, friction = 0.5, rho = 0.5;
 }  // namespace
 
 TEST_CASE("where u_N = 0 the step is Newton's on Alart and Curnier's function") {
-  // There mu r_N and mu z_N, the two radii of the disc, are the same. dr solves
+  // There the two radii of the disc, mu r_N and mu z_N, are equal. dr solves
   //   F + by_r dr + by_u (du + epsilon_c dr) = 0.
   Random random(7);
   int slips = 0, sticks = 0;
@@ -83,7 +83,7 @@ TEST_CASE("a slipping contact that is pulled keeps a gain that is not negative")
   const Matrix3d symmetric = 0.5 * (step.gain + step.gain.transpose());
   CHECK(step.gain.block<2, 2>(1, 1).isZero(0.0));
   CHECK(symmetric(0, 0) > 0.0);
-  // r_N large: kappa is held at one.
+  // r_N is large: kappa is limited to one.
   const RegularStep held = regular_step(friction, rho, epsilon, {10.0, 0.0, 0.1}, {19.0, 2.0, 0.0});
   REQUIRE(held.status == ContactStatus::slip);
   CHECK(held.gain(2, 2) <= rho / epsilon * (1.0 + 1e-12));

@@ -9,7 +9,7 @@ using namespace ballast;
 
 namespace {
 
-/// The convex problem with s held, by projected gradients: slow and plain.
+/// Solves the convex problem with fixed s by projected gradients: slow and simple.
 void solve_convex(ContactOperator& w, const SlipShift& shift, Impulses& r, Eigen::VectorXd& u) {
   for (int k = 0; k < 20000; ++k) {
     w.velocity(r, u);
@@ -78,5 +78,5 @@ TEST_CASE("a linear fixed point of n unknowns is found in n + 1 combinations") {
   mixing.forget();
   const Eigen::VectorXd image = a * x + b;
   mixing.step(x, image);
-  CHECK(x == image);  // nothing remembered: the plain step
+  CHECK(x == image);  // without memory it is the plain step
 }

@@ -10,7 +10,7 @@ using namespace ballast;
 
 namespace {
 
-/// A band matrix with some far entries, diagonally dominant or not.
+/// A band matrix with a few distant entries, diagonally dominant or not.
 SparseColumns random_sparse(int n, double diagonal, std::uint64_t seed) {
   Random random(seed);
   std::vector<Eigen::Triplet<double>> entries;

@@ -59,7 +59,7 @@ TEST_CASE("why a loop stops, and when") {
   const auto stands = [](int n) { return n < 100 ? harmonic(n) : 0.5; };
   for (const Case& c : {
            Case{"a start that is good enough", {.tolerance = 1e-3}, small, reached_tolerance, 0},
-           // 1/11; 1/10 is within the margin that is left to the judge's rounding
+           // The error is 1/11; 1/10 is within the margin for the judge's rounding.
            {"the first look that meets it", {.tolerance = 0.1}, harmonic, reached_tolerance, 10},
            {"none allowed", {.max_iterations = 0}, harmonic, iteration_limit, 0},
            {"not a number", {}, not_a_number, numerical_failure, 3},
@@ -79,7 +79,7 @@ TEST_CASE("why a loop stops, and when") {
 }
 
 TEST_CASE("time runs out") {
-  // On a busy machine the first look alone may take all of a short time.
+  // On a busy machine the first check alone may use up a short time.
   int iterations = 0;
   for (double seconds = 0.02; iterations <= 1 && seconds < 60.0; seconds *= 2.0) {
     const Solved solved = run({.tolerance = 0.0, .max_iterations = 1 << 30, .max_seconds = seconds},
@@ -122,7 +122,7 @@ TEST_CASE("who has something better to do gives up at a look, but not what is so
 
 namespace {
 
-/// A solve in a course: from `start`, with `left` to spend.
+/// A solve in a course: it begins at `start` and may spend `left`.
 using Part = std::function<Solved(Impulses start, const Budget& left)>;
 
 void run(Course& course, const Part& part) {
@@ -137,7 +137,7 @@ void run(Course& course, const Part& part) {
   course.run(solver, {}, 1 << 30);
 }
 
-/// Of so many iterations, from the error 0.5 to another, which has an impulse.
+/// Goes from the error 0.5 to `error` in `iterations`. All its impulses are `impulse`.
 Part part(int iterations, double impulse, double error,
           StopReason reason = StopReason::iteration_limit) {
   return [=](Impulses start, const Budget& left) {
@@ -159,7 +159,7 @@ Course course_at(double error, const Budget& budget = {.tolerance = 0.0, .max_it
   return course;
 }
 
-/// The history's counts and errors.
+/// The iteration counts and errors of the history.
 using Points = std::vector<std::pair<int, double>>;
 Points points_of(const Solved& solved) {
   Points points;
@@ -174,7 +174,7 @@ TEST_CASE("a course keeps the best of all iterates, in whatever order they come"
   Course course = course_at(0.5, {.tolerance = 1e-3, .max_iterations = 100, .keep_history = true});
   course.spend(10);
   course.offer(Impulses::Constant(1, 2.0), 0.2);
-  course.offer(Impulses::Constant(1, 3.0), 0.1);  // of the same count
+  course.offer(Impulses::Constant(1, 3.0), 0.1);  // at the same count
   course.spend(20);
   course.offer(Impulses::Constant(1, 4.0), 0.7);
   CHECK(course.error() == 0.1);
@@ -186,7 +186,7 @@ TEST_CASE("a course keeps the best of all iterates, in whatever order they come"
   CHECK(solved.impulses == Impulses::Constant(1, 3.0));
   CHECK(solved.own_residual == 0.1);
   CHECK(solved.iterations == 30);
-  // One point per count, the error that of the best.
+  // One point per count, with the error of the best.
   CHECK(points_of(solved) == Points{{0, 0.5}, {10, 0.1}, {30, 0.1}});
   CHECK(course_at(1.0).finish().history.empty());
 }
@@ -194,7 +194,7 @@ TEST_CASE("a course keeps the best of all iterates, in whatever order they come"
 TEST_CASE("every part begins at the best iterate, and has what the others left") {
   Course course({.tolerance = 0.0, .max_iterations = 100, .keep_history = true},
                 Impulses::Constant(3, 5.0));
-  run(course, part(5, 0.0, 0.9));  // worse than the start, whose error it tells
+  run(course, part(5, 0.0, 0.9));  // worse than the start, whose error it reports
   CHECK(course.error() == 0.5);
   CHECK(course.best() == Impulses::Constant(3, 5.0));
   run(course, part(25, 1.0, 0.4));
@@ -229,15 +229,15 @@ TEST_CASE("a course is over at the tolerance, at a limit, or where nothing is fi
   Course counted = course_at(0.05);
   counted.spend(100);
   CHECK(end_of(counted, true) == StopReason::iteration_limit);
-  // What a part says it has reached is the answer, though its error is not the smallest.
+  // A part's claim to have reached the tolerance is the answer, even if a smaller error is known.
   Course reached = course_at(0.5);
   run(reached, part(20, 2.0, 0.9, StopReason::reached_tolerance));
   CHECK(reached.best() == Impulses::Constant(1, 2.0));
   CHECK(end_of(reached, true) == StopReason::reached_tolerance);
-  // A part that fails leaves the best.
+  // A failing part leaves the best iterate.
   Course failed = course_at(0.4);
   run(failed, [](Impulses start, const Budget& left) {
-    CHECK_FALSE(left.keep_history);  // nobody asked for it
+    CHECK_FALSE(left.keep_history);  // not requested
     return part(0, 1.0, 0.5)(start, left);
   });
   run(failed,
@@ -254,7 +254,7 @@ TEST_CASE("a course that is asked for Siconos' measure ends with the iterate tha
   CHECK_FALSE(course.over());
   course.offer(known.r, 0.6);
   CHECK(course.over());
-  course.offer(0.0 * known.r, 0.3);  // comes too late
+  course.offer(0.0 * known.r, 0.3);  // too late
   const Solved solved = course.finish();
   CHECK(solved.reason == StopReason::reached_tolerance);
   CHECK(solved.impulses == known.r);

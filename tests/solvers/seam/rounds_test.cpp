@@ -15,7 +15,7 @@ using namespace ballast;
 
 namespace {
 
-/// A problem, its solution in the rows that move, and a loop over rounds.
+/// A problem, its solution in the rows that can move, and a loop over rounds.
 struct Trial {
   KnownSolution known = make_known_solution({.bodies = 10, .contacts = 8});
   MovingContacts moving;
@@ -146,7 +146,7 @@ TEST_CASE("rounds stop on Siconos' measure where the budget asks for it") {
 }
 
 TEST_CASE("the contacts that move, as the dense operator has them") {
-  const FrictionProblem problem = oracle::mixed_problem();  // contact 4: nothing moves
+  const FrictionProblem problem = oracle::mixed_problem();  // contact 4 cannot move
   MovingContacts moving;
   moving.take(problem);
   CHECK(moving.contact == std::vector<int>{0, 1, 2, 3, 5, 6});
@@ -183,7 +183,7 @@ TEST_CASE("impulses there and back: what moves stays, what does not becomes zero
   moving.scatter(x, back);
   expected.segment(problem.row_begin[4], 3).setZero();
   CHECK(back == expected);
-  // A problem without contacts after it.
+  // A problem without contacts follows.
   problem.clear_contacts();
   problem.dynamics.bias.resize(0);
   moving.take(problem);

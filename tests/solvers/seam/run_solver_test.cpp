@@ -12,7 +12,7 @@ using namespace ballast;
 
 namespace {
 
-/// Returns what it is told to, whatever the problem.
+/// Returns a given answer, whatever the problem.
 class Puppet final : public Solver {
  public:
   Solved answer;
@@ -38,7 +38,7 @@ const KnownSolution known = make_known_solution({});
 
 constexpr StopReason claimed = StopReason::reached_tolerance;
 
-/// As the judge finds impulses that a solver returned for that reason, to 1e-8 m/s.
+/// The judge's result for impulses that a solver returned for this reason, to 1e-8 m/s.
 SolverRun judged(const FrictionProblem& problem, const Impulses& r, StopReason reason = claimed) {
   SolverRun run;
   run.solved.impulses = r;
@@ -68,7 +68,7 @@ TEST_CASE("a claim is believed only when the judge agrees") {
 }
 
 TEST_CASE("a solver that stops on the natural map goes on until the law holds") {
-  // With mu = 1e4 a natural map below the tolerance leaves the contact sinking in.
+  // With mu = 1e4 the natural map is below the tolerance although the contact sinks in.
   const FrictionProblem problem = rough_contact(1e4);
   Puppet puppet;
   puppet.says(Impulses::Zero(3));
@@ -80,13 +80,13 @@ TEST_CASE("a solver that stops on the natural map goes on until the law holds") 
   CHECK(puppet.start == Impulses::Zero(3));
   CHECK(run.verdict == Verdict::solved);
   CHECK(run.solved.iterations == 10);
-  // One that cannot do better is denied, and not asked for ever.
+  // A solver that cannot do better is denied, and not called endlessly.
   puppet.says(Impulses::Zero(3));
   puppet.on_solve = [] {};
   puppet.solved = 0;
   CHECK(SolverRunner().run(puppet, problem, {}, {.tolerance = 1e-5}).verdict == Verdict::denied);
   CHECK(puppet.solved < 10);
-  // The budget is one budget.
+  // All calls together have one budget.
   puppet.solved = 0;
   SolverRun ended =
       SolverRunner().run(puppet, problem, {}, {.tolerance = 1e-5, .max_iterations = 5});
@@ -155,7 +155,7 @@ TEST_CASE("one runner and one solver serve a sequence of problems") {
       const SolverRun run = runner.run(*solver, problem, {}, {});
       CHECK(run.is_solved());
       CHECK(SolverRunner().run(*make_solver(name), problem, {}, {}).solved.impulses ==
-            run.solved.impulses);  // nothing left over
+            run.solved.impulses);  // nothing is left over from earlier problems
       CHECK(run.prepare_seconds >= 0.0);
       CHECK(run.solve_seconds > 0.0);
     }
@@ -167,7 +167,7 @@ TEST_CASE("a contact that no impulse moves and that sinks in has no solution") {
   CHECK(judged(immovable_contact(-1.0), none).verdict == Verdict::no_solution);
   CHECK(judged(immovable_contact(1.0), none).verdict == Verdict::solved);
   CHECK(judged(immovable_contact(-1.0), none, StopReason::stalled).verdict == Verdict::no_solution);
-  // an impulse there where u_N > 0 answers nothing
+  // An impulse where u_N > 0 is not a solution.
   CHECK(judged(immovable_contact(1.0), Eigen::Vector3d(2.0, 0.0, 0.0)).verdict == Verdict::denied);
 }
 
@@ -180,10 +180,10 @@ TEST_CASE("impulses that swallow the velocities solve nothing") {
   CHECK(run.verdict == Verdict::no_solution);
   CHECK(run.error.fclib < 1e-8);
   CHECK(verdict_of(claimed, run.error, 1e-8, /*by_fclib=*/true) == Verdict::no_solution);
-  run.solved.impulses.setZero(3);  // of a problem of which nothing is proved
+  run.solved.impulses.setZero(3);  // of a problem for which nothing is proved
   CHECK(explained(rough_contact(0.5), run, 1e-8) ==
         "no solution found; r grows without bound: 1e+17 times what a contact alone needs");
-  r[0] = r[3] = 1e3;  // on the way there
+  r[0] = r[3] = 1e3;  // not yet so large
   CHECK(judged(squeezed_contacts(), r).verdict == Verdict::denied);
   CHECK(judged(squeezed_contacts(), r, StopReason::iteration_limit).verdict == Verdict::unsolved);
 }
@@ -225,14 +225,14 @@ TEST_CASE("impulses that a start brought along have not grown") {
 }
 
 TEST_CASE("with much friction a small natural map is not enough") {
-  // No impulse at all: the contact sinks in, and mu |u_T| hides it.
+  // With no impulse at all the contact sinks in, and mu |u_T| hides it.
   SolverRun falls = judged(rough_contact(1e9), Impulses::Zero(3));
   CHECK(falls.error.natural_map_rms < 1e-10);
   CHECK(falls.error.approach_rms == Approx(9.81e-3));
   CHECK(falls.verdict == Verdict::denied);
   CHECK(explained(rough_contact(1e9), falls, 1e-8) ==
         "the judge denies it: -u_N is 0.00981 m/s (rms), at most 4e-08 may be");
-  // What stands is solved.
+  // A contact at rest is solved.
   SolverRun stands = judged(rough_contact(1e4), Eigen::Vector3d(9.81e-3, -1e-3, 0.0));
   CHECK(stands.is_solved());
   CHECK(explained(rough_contact(1e4), stands, 1e-8) == "solved");
@@ -244,7 +244,7 @@ TEST_CASE("what is not solved says why, and is searched for a proof that it cann
   CHECK_THAT(explained(problem, run, 1e-8), Catch::Contains("the natural map is"));
   run.error.finite = false;
   CHECK(verdict_of(claimed, run.error, 1e300) == Verdict::denied);
-  CHECK(verdict_of(claimed, run.error, 0.0) == Verdict::unsolved);  // nothing was asked
+  CHECK(verdict_of(claimed, run.error, 0.0) == Verdict::unsolved);  // no tolerance was asked for
   CHECK(explained(problem, run, 1e300) ==
         "the judge denies it: the impulses, or velocities that they give, are not finite");
   SolverRun early = judged(problem, Impulses::Zero(3), StopReason::time_limit);
@@ -253,7 +253,7 @@ TEST_CASE("what is not solved says why, and is searched for a proof that it cann
   CHECK(explained(problem, early, 1e-8) == "unsolved: time_limit: why");
   CHECK(early.verdict == Verdict::unsolved);
   SolverRun none = judged(squeezed_contacts(), Impulses::Zero(6), StopReason::stalled);
-  none.prepare_seconds = 2.0;  // all that there was
+  none.prepare_seconds = 2.0;  // the whole time limit
   CHECK(explained(squeezed_contacts(), none, 1e-8, 2.0) == "unsolved: stalled");
   CHECK(explained(squeezed_contacts(), none, 1e-8) ==
         "there is no solution: 2 contacts (one is 0) sink in at 1 m/s in the mean whatever the "

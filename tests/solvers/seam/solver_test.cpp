@@ -40,13 +40,13 @@ TEST_CASE("the history of two solves booked as one holds no iteration twice") {
   CHECK(solved.history.size() == 3);
 }
 
-// Siconos' measure as a reason to stop: the judge's number, looked at when it may matter.
+// Siconos' measure as a reason to stop: the judge's number, evaluated when it may matter.
 
 TEST_CASE("it is reached where the judge says so, and aims at the natural map of that place") {
   const KnownSolution known = make_known_solution({});
   FclibStop stop(known.problem, 1e-4);
   Budget budget{.tolerance = 3e-5};
-  CHECK(budget.aim() == 3e-5);  // without it
+  CHECK(budget.aim() == 3e-5);  // without Siconos' measure
   budget.fclib = &stop;
   CHECK(budget.aim() > 1e300);
   const Impulses near = known.r * (1.0 + 1e-7), far = known.r * 1.5;
@@ -63,7 +63,7 @@ TEST_CASE("after the first looks it looks again only where the natural map has h
   const Impulses far = known.r * 1.5;
   const double error = contact_error(known.problem, far).natural_map_rms;
   for (int k = 0; k < 4; ++k) CHECK_FALSE(stop.reached(far, error));
-  // the solution itself, called no better than before, is not looked at
+  // The solution itself, with a natural map that is hardly better than before, is not evaluated.
   CHECK_FALSE(stop.reached(known.r, 0.9 * error));
   CHECK(stop.reached(known.r, 0.4 * error));
 }
