@@ -1,20 +1,16 @@
 #include "problems/algebra/delassus.hpp"
 
+#include <algorithm>
+
 namespace ballast {
 namespace {
 
-using SideRows = Eigen::Matrix<double, 3, MassRoot::max_dofs>;
-
-/// G = H L^-T for one side of one contact: W = G G^T summed over the sides. Unused rows and columns
-/// are zero.
-SideRows mass_scaled_rows(const double* block, int rows, const MassRoot& root) {
-  SideRows g = SideRows::Zero();
-  if (rows == 3)
-    root.scaled_columns<3>(
-        block, [&](int k, const double* column) { g.col(k) << column[0], column[1], column[2]; });
-  else
-    root.scaled_columns<1>(block, [&](int k, const double* column) { g(0, k) = column[0]; });
-  return g;
+/// Replaces H by G = H L^-T in the block of one side of a contact, and moves on to the next block.
+template <int Rows>
+void scale_columns(double*& block, const MassRoot& root) {
+  root.scaled_columns<Rows>(
+      block, [block](int k, const double* column) { std::copy_n(column, Rows, block + k * Rows); });
+  block += Rows * root.dofs;
 }
 
 /// The lower triangle of G G^T, summed over columns and sides.
@@ -37,40 +33,23 @@ struct Gram {
   }
 };
 
-/// W = H M^-1 H^T = G G^T with G = H L^-T: the block of two contacts is the sum of G_c G_d^T over
-/// the bodies that both of them touch.
-SparseRows assemble(const FrictionProblem& problem) {
-  const DynamicsForm& dynamics = problem.dynamics;
+/// W = H M^-1 H^T = G G^T with G = H L^-T.
+SparseRows assemble(FrictionProblem problem) {
+  DynamicsForm& dynamics = problem.dynamics;
   std::vector<MassRoot> roots;
   factor_masses(dynamics, roots);
-  struct Side {
-    int contact;
-    SideRows g;
-  };
-  std::vector<std::vector<Side>> sides_of_body(dynamics.body_count());
   for (int c = 0; c < problem.contact_count(); ++c) {
-    const int rows = problem.contact_rows(c);
-    const double* block = dynamics.h.data() + dynamics.h_begin[c];
+    double* block = dynamics.h.data() + dynamics.h_begin[c];
     for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
       if (body < 0) continue;
-      sides_of_body[body].push_back({c, mass_scaled_rows(block, rows, roots[body])});
-      block += rows * roots[body].dofs;
+      if (problem.contact_rows(c) == 3)
+        scale_columns<3>(block, roots[body]);
+      else
+        scale_columns<1>(block, roots[body]);
     }
   }
-  // Contacts that share two bodies give the same entry twice; setFromTriplets adds them.
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const std::vector<Side>& sides : sides_of_body)
-    for (const Side& side : sides)
-      for (const Side& other : sides) {
-        const Eigen::Matrix3d block = side.g * other.g.transpose();
-        for (int i = 0; i < problem.contact_rows(side.contact); ++i)
-          for (int j = 0; j < problem.contact_rows(other.contact); ++j)
-            entries.emplace_back(problem.row_begin[side.contact] + i,
-                                 problem.row_begin[other.contact] + j, block(i, j));
-      }
-  SparseRows w(problem.row_count(), problem.row_count());
-  w.setFromTriplets(entries.begin(), entries.end());
-  return w;
+  const SparseRows g = sparse_h(problem);
+  return g * SparseRows(g.transpose());
 }
 
 }  // namespace
