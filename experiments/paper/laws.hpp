@@ -47,8 +47,9 @@ OneCurve one_curve(const std::vector<Groups>& groups);
 /// chi^2 over the degrees of freedom of a fit whose points have the pooled error `error`.
 VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error);
 
-/// The least f_max/(m g) at which f_max >> f_g is taken to hold.
-constexpr double least_load = 2.0;
+/// The least f_max/(m g) at which f_max >> f_g is taken to hold, and the least m_w/m of the walls
+/// on the curve.
+constexpr double least_load = 2.0, least_wall = 0.2;
 
 /// Reports a finding: the fit of C with the shape of the box as a second variable beside X.
 void report_box(PaperData& data, PaperSection& section);

@@ -407,9 +407,9 @@ Groups PaperData::groups(const Selection& selection, RunMeasure along) {
 Groups PaperData::settings(const Selection& selection) {
   std::vector<Group> groups;
   std::map<std::string, size_t> known;  // the place of a setting's group
-  std::set<std::string> seen;           // equal runs of several stages count once
+  std::set<std::string> seen;           // equal runs and equal records count once
   for (const RunRow* row : rows(selection)) {
-    if (!seen.insert(row->key).second) continue;
+    if (!seen.insert(row->record.empty() ? row->key : row->record).second) continue;
     std::string setting = row->stage + row->name;
     if (const size_t seed = setting.find("seed="); seed != std::string::npos)
       setting.erase(seed, setting.find_first_not_of("0123456789", seed + 5) - seed);

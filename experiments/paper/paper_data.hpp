@@ -136,7 +136,7 @@ class PaperData {
   /// The groups by growing value of `along`. Each sample has one row, the first that is found.
   Groups groups(const Selection& selection, RunMeasure along);
   /// A group for each setting, whatever was varied: its rows have names that differ in the seed
-  /// alone. A run that several stages share belongs to the first.
+  /// alone. A run or record that several stages share belongs to the first.
   Groups settings(const Selection& selection);
 
   /// The records of a stage's finished runs at a frequency (NaN: at any).

@@ -10,11 +10,6 @@
 namespace ballast {
 namespace {
 
-/// Selects settings of one kind of grains; `loads` is a further condition on those of Fig. 10.
-Selection one_kind_of_grains(const std::string& loads) {
-  return "frequency; slowest; force " + loads + "; gravity; mass; box; loads largest_size>0.04";
-}
-
 /// Fits of ln C of settings to logarithms of measured or set quantities, with the pooled error.
 class LogFits {
  public:
@@ -110,8 +105,11 @@ void report_factors(PaperData& data, PaperSection& section) {
 }  // namespace
 
 void report_box(PaperData& data, PaperSection& section) {
-  const std::string loads = printed("force_over_weight>%g", 0.99 * least_load);
-  const LogFits all(data.settings(one_kind_of_grains(loads)), {"aspect"});
+  const LogFits all(
+      data.settings(printed("frequency; slowest; force force_over_weight>%g; gravity; "
+                            "mass wall_mass_over_grains>%g; box",
+                            0.99 * least_load, least_wall)),
+      {"aspect"});
   if (!all.is_known(8)) return;
   const Eigen::VectorXd x = all.log("eq3");
   const WeightedFit fit = all.fit({x, x.cwiseAbs2(), all.log("aspect")});
@@ -122,7 +120,9 @@ void report_box(PaperData& data, PaperSection& section) {
 
 void fill_theory(PaperData& data, PaperSection& section) {
   report_factors(data, section);
-  const LogFits all(data.settings(one_kind_of_grains("")), {"prefactor_theory"});
+  const LogFits all(data.settings("frequency; slowest; force; gravity; mass; box; "
+                                  "loads largest_size>0.04"),
+                    {"prefactor_theory"});
   if (!all.is_known(6)) return;
   std::vector<Eigen::VectorXd> columns = theory_and("eq3", all);
   const WeightedFit more = all.fit(columns);
