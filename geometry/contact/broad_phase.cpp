@@ -152,16 +152,19 @@ void BroadPhase::list_pairs() {
   for (const Strip& strip : strips_)
     found_.insert(found_.end(), strip.found.begin(), strip.found.end());
   std::sort(found_.begin(), found_.end());
+  size_t stays = 0;
   auto next = found_.begin();
-  std::erase_if(pairs_, [&](const CandidatePair& pair) {
+  for (CandidatePair& pair : pairs_) {
     next = std::find_if(next, found_.end(), [key = std::pair(pair.a, pair.b)](const auto& found) {
       return found >= key;
     });
-    return next == found_.end() || *next != std::pair(pair.a, pair.b);
-  });
+    if (next != found_.end() && *next == std::pair(pair.a, pair.b))
+      pairs_[stays++] = pair;
+    else if (pair.touching >= 0)
+      vacant_.push_back(pair.touching);
+  }
   std::fill(first_.begin(), first_.end(), 0);
   // Works from the end, so that no pair is overwritten before it has moved.
-  size_t stays = pairs_.size();
   pairs_.resize(found_.size());
   for (size_t k = found_.size(); k-- > 0;) {
     const auto [a, b] = found_[k];
@@ -170,6 +173,23 @@ void BroadPhase::list_pairs() {
     ++first_[a + 1];
   }
   for (size_t a = 0; a < bodies_.size(); ++a) first_[a + 1] += first_[a];
+  // Reserves room for all pairs and for longer lists, though only half of them touch: pages that
+  // are never written take no memory, and memories must not move before the next list.
+  if (pairs_.size() <= memories_.capacity()) return;
+  const size_t room = pairs_.size() + pairs_.size() / 2;
+  memories_.reserve(room);
+  vacant_.reserve(room);
+}
+
+int BroadPhase::new_place() {
+  const std::lock_guard lock(place_mutex_);
+  if (vacant_.empty()) {
+    memories_.emplace_back();
+    return static_cast<int>(memories_.size()) - 1;
+  }
+  const int place = vacant_.back();
+  vacant_.pop_back();
+  return place;
 }
 
 }  // namespace ballast

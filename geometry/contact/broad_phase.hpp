@@ -2,11 +2,12 @@
 // Candidate pairs of polyhedra, from bounding boxes with a margin. The list is made once and kept
 // until the margin is used up.
 
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "geometry/contact/separating_axis.hpp"
+#include "geometry/contact/touching_pair.hpp"
 #include "platform/worker_team.hpp"
 
 namespace ballast {
@@ -29,7 +30,7 @@ Travel step_bound(const Pose& from, const Pose& to);
 struct CandidatePair {
   int a, b;
   AxisFeature axis = {};  ///< the facet that decided last time
-  int touching = -1;      ///< index of its TouchingPair record; -1: none
+  int touching = -1;      ///< place of its memory, BroadPhase::memory(); -1: it has not touched
   /// The pair is proved separated while shift_a + shift_b + arm_a turn_a + arm_b turn_b + reach_a +
   /// reach_b stays below this [m].
   double apart_below = -1.0;
@@ -71,6 +72,12 @@ class BroadPhase {
   int first(int a) const { return first_[a]; }
   long rebuilds() const { return rebuilds_; }
 
+  /// The memory at CandidatePair::touching.
+  TouchingPair& memory(int place) { return memories_[place]; }
+  /// Returns a place for the memory of a pair that begins to touch. Several threads may call it at
+  /// the same time.
+  int new_place();
+
  private:
   bool still_valid(std::span<const Pose> poses, std::span<const double> reach) const;
   void list_boxes(std::span<const Pose> poses, std::span<const Mat3> rotations,
@@ -99,6 +106,10 @@ class BroadPhase {
   std::vector<Found> found_;  // pairs found in all strips, sorted
   std::vector<CandidatePair> pairs_;
   std::vector<int> first_;
+  // Memories stay at their places; those of pairs that have left the list are vacant.
+  std::vector<TouchingPair> memories_;
+  std::vector<int> vacant_;
+  std::mutex place_mutex_;
   WorkerTeam* team_ = nullptr;
   long rebuilds_ = 0;
 };

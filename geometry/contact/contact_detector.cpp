@@ -54,8 +54,7 @@ struct ContactDetector::State {
                      : std::nullopt),
         bodies(detected_bodies(std::move(shapes), elements)),
         broad_phase(broad_phase_bodies(bodies, elements),
-                    chosen_skin(settings.skin, bodies.tables)),
-        part_of(bodies.shapes.size(), 0) {
+                    chosen_skin(settings.skin, bodies.tables)) {
     parts.emplace_back(bodies, settings);
     share();
   }
@@ -71,7 +70,6 @@ struct ContactDetector::State {
   BroadPhase broad_phase;
   WorkerTeam* team = nullptr;
   std::vector<DetectionPart> parts;
-  std::vector<int> part_of;  // part that remembers the pairs (a, b) of body a
   DetectionCounters counters;
 };
 
@@ -151,8 +149,7 @@ void ContactDetector::State::check(std::span<const Pose> poses,
   }
 }
 
-/// Deals the bodies out to the parts, so that each has about the same work. Drops the memory of
-/// pairs that are no longer listed.
+/// Deals the bodies out to the parts, so that each has about the same work.
 void ContactDetector::State::share() {
   // A plane tests all bodies, which is as much work as one pair for every 64 of them.
   const size_t plane_work = 1 + bodies.shapes.size() / 64;
@@ -162,9 +159,6 @@ void ContactDetector::State::share() {
   };
   size_t total = 0, passed = 0;
   for (int a = 0; a < bodies.count(); ++a) total += work_of(a);
-  for (const CandidatePair& pair : broad_phase.pairs())
-    if (pair.touching >= 0) parts[part_of[pair.a]].keep(pair);
-  for (DetectionPart& part : parts) part.drop_others();
   // Each part is a run of neighbours in the list, so that the parts' contacts, one after the other,
   // are in the order that one part alone would give.
   int begin = 0;
@@ -174,16 +168,9 @@ void ContactDetector::State::share() {
          end < bodies.count() && (k + 1 == parts.size() || passed * parts.size() < (k + 1) * total);
          ++end)
       passed += work_of(end);
-    const int first = broad_phase.first(begin), last = broad_phase.first(end);
-    parts[k].take_range(begin, end, static_cast<size_t>(last - first));
-    for (CandidatePair& pair : broad_phase.pairs().subspan(first, last - first))
-      if (pair.touching >= 0 && part_of[pair.a] != static_cast<int>(k))
-        parts[k].adopt(pair, parts[part_of[pair.a]]);
+    parts[k].take_range(begin, end);
     begin = end;
   }
-  for (size_t k = 0; k < parts.size(); ++k)
-    std::fill(part_of.begin() + parts[k].begin(), part_of.begin() + parts[k].end(),
-              static_cast<int>(k));
 }
 
 // ---- warm starts

@@ -52,42 +52,6 @@ DetectionPart::DetectionPart(const DetectedBodies& bodies, const DetectionSettin
   heights_.resize(vertices);
 }
 
-void DetectionPart::take_range(int begin, int end, size_t pairs) {
-  begin_ = begin;
-  end_ = end;
-  if (pairs <= records_.touching.capacity()) return;
-  // Reserves room for all pairs and for longer lists, though only half of them touch: pages that
-  // are never written take no memory, and growing would copy.
-  const size_t room = pairs + pairs / 2;
-  records_.touching.reserve(room);
-  records_.is_kept.reserve(room);
-  records_.vacant.reserve(room);
-}
-
-void DetectionPart::drop_others() {
-  records_.vacant.clear();
-  for (size_t place = records_.is_kept.size(); place-- > 0;)
-    if (!std::exchange(records_.is_kept[place], 0))
-      records_.vacant.push_back(static_cast<int>(place));
-}
-
-void DetectionPart::adopt(CandidatePair& pair, DetectionPart& from) {
-  const int old = std::exchange(pair.touching, new_place());
-  records_.touching[pair.touching] = from.records_.touching[old];
-  from.records_.vacant.push_back(old);
-}
-
-int DetectionPart::new_place() {
-  if (records_.vacant.empty()) {
-    records_.touching.emplace_back();
-    records_.is_kept.push_back(0);
-    return static_cast<int>(records_.touching.size()) - 1;
-  }
-  const int place = records_.vacant.back();
-  records_.vacant.pop_back();
-  return place;
-}
-
 void DetectionPart::detect(BroadPhase& broad_phase, std::vector<ContactPoint>& contacts) {
   counters_ = DetectionCounters{};
   choose_pairs(broad_phase);
@@ -96,7 +60,7 @@ void DetectionPart::detect(BroadPhase& broad_phase, std::vector<ContactPoint>& c
     if (!bodies_.shape(a)) detect_plane(a, contacts);
     for (; next < chosen_.size() && chosen_[next] < broad_phase.first(a + 1); ++next) {
       fetch(broad_phase, next + 4);
-      detect_pair(broad_phase.pairs()[chosen_[next]], contacts);
+      detect_pair(broad_phase, broad_phase.pairs()[chosen_[next]], contacts);
     }
   }
 }
@@ -182,7 +146,8 @@ void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts)
   }
 }
 
-void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoint>& contacts) {
+void DetectionPart::detect_pair(BroadPhase& broad_phase, CandidatePair& candidate,
+                                std::vector<ContactPoint>& contacts) {
   const std::span<const Pose> poses = bodies_.poses;
   const std::span<const double> reach = bodies_.reach;
   const int a = candidate.a, b = candidate.b;
@@ -208,7 +173,7 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
     const PairFrame pair(bodies_.bounds[a], bodies_.bounds[b], b_in_a);
     std::span<const ManifoldPoint> points;
     switch (
-        records_.touching[candidate.touching].look(pair, turn, limits, manifold_, axis, points)) {
+        broad_phase.memory(candidate.touching).look(pair, turn, limits, manifold_, axis, points)) {
       case TouchingPair::Look::touching:
         ++counters_.proved_axes;
         if (passes(candidate, limits, axis, contacts)) return;
@@ -233,8 +198,8 @@ void DetectionPart::detect_pair(CandidatePair& candidate, std::vector<ContactPoi
   // count if it would list them without any margin.
   if (axis.separation > 0.0 && axis.inside < 0.0 && !boxes_within_reach(candidate, alert)) return;
   if (settings_.use_cache) {
-    if (candidate.touching < 0) candidate.touching = new_place();
-    records_.touching[candidate.touching].record(pair, axis, turn, heights_);
+    if (candidate.touching < 0) candidate.touching = broad_phase.new_place();
+    broad_phase.memory(candidate.touching).record(pair, axis, turn, heights_);
   }
   if (passes(candidate, limits, axis, contacts)) return;
   append(candidate, pair, axis, manifold_.points(pair, axis, limits), contacts);
@@ -305,11 +270,11 @@ void DetectionPart::append(const CandidatePair& candidate, const PairFrame& fram
 
 /// Prefetches the record of a pair that is tested a few pairs later: the list of pairs is read in
 /// order, its records nearly so.
-void DetectionPart::fetch(const BroadPhase& broad_phase, size_t next) const {
+void DetectionPart::fetch(BroadPhase& broad_phase, size_t next) const {
   if (next >= chosen_.size()) return;
-  const int record = broad_phase.pairs()[chosen_[next]].touching;
-  if (record < 0) return;
-  const char* lines = reinterpret_cast<const char*>(&records_.touching[record]);
+  const int place = broad_phase.pairs()[chosen_[next]].touching;
+  if (place < 0) return;
+  const char* lines = reinterpret_cast<const char*>(&broad_phase.memory(place));
   for (size_t line = 0; line < sizeof(TouchingPair); line += 64) __builtin_prefetch(lines + line);
 }
 

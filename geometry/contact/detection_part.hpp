@@ -1,6 +1,6 @@
 #pragma once
-// A part of the pairs that a detection tests, with its memory of them and scratch memory of its
-// own, so that threads can work on several parts at the same time.
+// A part of the pairs that a detection tests, with scratch memory of its own, so that threads can
+// work on several parts at the same time.
 
 #include <span>
 #include <vector>
@@ -8,7 +8,6 @@
 #include "geometry/contact/axis_search.hpp"
 #include "geometry/contact/broad_phase.hpp"
 #include "geometry/contact/contact_point.hpp"
-#include "geometry/contact/touching_pair.hpp"
 #include "platform/worker_team.hpp"
 
 namespace ballast {
@@ -51,16 +50,8 @@ class DetectionPart {
  public:
   DetectionPart(const DetectedBodies& bodies, const DetectionSettings& settings);
 
-  /// Sets its bodies to begin <= a < end, with this number of pairs. The memory of pairs that were
-  /// another part's comes by adopt().
-  void take_range(int begin, int end, size_t pairs);
-  int begin() const { return begin_; }
-  int end() const { return end_; }
-  /// drop_others() drops the memories of all touching pairs but those named by keep().
-  void keep(const CandidatePair& pair) { records_.is_kept[pair.touching] = 1; }
-  void drop_others();
-  /// Takes over the memory of a pair from another part.
-  void adopt(CandidatePair& pair, DetectionPart& from);
+  /// Sets its bodies to begin <= a < end.
+  void take_range(int begin, int end) { begin_ = begin, end_ = end; }
 
   /// Appends the contacts of its range, sorted by (body_a, body_b, feature).
   void detect(BroadPhase& broad_phase, std::vector<ContactPoint>& contacts);
@@ -72,9 +63,10 @@ class DetectionPart {
 
  private:
   void choose_pairs(const BroadPhase& broad_phase);
-  void fetch(const BroadPhase& broad_phase, size_t next) const;
+  void fetch(BroadPhase& broad_phase, size_t next) const;
   void detect_plane(int plane, std::vector<ContactPoint>& contacts);
-  void detect_pair(CandidatePair& pair, std::vector<ContactPoint>& contacts);
+  void detect_pair(BroadPhase& broad_phase, CandidatePair& pair,
+                   std::vector<ContactPoint>& contacts);
   double separation_along(const Vec3& normal_W, int a, int b);
   void append(const CandidatePair& candidate, const PairFrame& frame, const SeparatingAxis& axis,
               std::span<const ManifoldPoint> points, std::vector<ContactPoint>& contacts);
@@ -85,22 +77,12 @@ class DetectionPart {
   double bound_use(const CandidatePair& pair) const;
   bool boxes_within_reach(const CandidatePair& pair, double alert) const;
 
-  /// The memories of touching pairs. Each stays at its place; the places of pairs that are no
-  /// longer listed are reused.
-  struct Records {
-    std::vector<TouchingPair> touching;
-    std::vector<int> vacant;
-    std::vector<char> is_kept;
-  };
-  int new_place();
-
   const DetectedBodies& bodies_;
   const DetectionSettings& settings_;
   int begin_ = 0, end_ = 0;
   AxisSearch search_;
   ContactManifold manifold_;
   Heights heights_;
-  Records records_;
   std::vector<int> chosen_;  // candidate pairs that must be tested
   std::vector<int> near_;    // bodies whose balls are within reach of a plane
   DetectionCounters counters_;
