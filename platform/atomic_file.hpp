@@ -70,7 +70,7 @@ void sync_folder(const std::filesystem::path& folder);
 // system refuses (longer than a file's name may be, a folder that may not be entered). Words of a
 // command line and of a scene can be such names: for them these queries return false.
 
-inline bool is_there(const std::filesystem::path& path) noexcept {
+inline bool path_exists(const std::filesystem::path& path) noexcept {
   std::error_code refused;
   return std::filesystem::exists(path, refused);
 }

@@ -68,7 +68,7 @@ Hdf5Shape select_rows(const Hdf5File& file, const Hdf5Id& space, size_t first, s
 hid_t open_for_reading(const Hdf5File& file, const std::filesystem::path& path) {
   if (access(path.c_str(), R_OK) != 0 && errno != ENOENT && errno != ENOTDIR)
     throw_file_error(path, "open");
-  if (!is_file(path)) file.fail(is_there(path) ? "not a regular file" : "no such file");
+  if (!is_file(path)) file.fail(path_exists(path) ? "not a regular file" : "no such file");
   // The signature is checked first: a text file and a truncated HDF5 file get different messages.
   if (H5Fis_hdf5(path.c_str()) <= 0) file.fail("not an HDF5 file");
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);

@@ -434,7 +434,7 @@ std::string last_line(const fs::path& log) {
   return last.starts_with(prefix) ? last.substr(prefix.size()) : last;
 }
 
-std::string shell_word(const std::string& word) {
+std::string shell_quoted(const std::string& word) {
   if (is_plain(word, "_-./=+:,@%")) return word;
   // Within single quotes a shell takes every character as it is but the quote itself, which is
   // added outside of them.
@@ -445,13 +445,13 @@ std::string shell_word(const std::string& word) {
 
 std::string shell_line(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_quoted(word);
   return line;
 }
 
-fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
+fs::path executable_path() { return fs::read_symlink("/proc/self/exe"); }
 
-std::vector<std::string> own_words() {
+std::vector<std::string> process_arguments() {
   // Each word is followed by a zero.
   std::vector<std::string> words = split(read_whole_file("/proc/self/cmdline"), '\0');
   words.pop_back();
@@ -459,7 +459,7 @@ std::vector<std::string> own_words() {
 }
 
 void restart_with_one_algebra_thread() {
-  const std::vector<std::string> words = own_words();
+  const std::vector<std::string> words = process_arguments();
   const Words unsaid = unsaid_threads();
   if (unsaid.empty() || words.empty()) return;
   const Words environment = changed_environment({}, unsaid);

@@ -133,14 +133,14 @@ class SupervisedProgram {
 std::string last_line(const std::filesystem::path& log);
 
 /// A word as a shell reads it back: in quotes where it has to be.
-std::string shell_word(const std::string& word);
+std::string shell_quoted(const std::string& word);
 /// Words as a line for a shell.
 std::string shell_line(const std::vector<std::string>& words);
 
 /// The path of this program's executable.
-std::filesystem::path own_program();
+std::filesystem::path executable_path();
 /// The command line of this process, as it was given.
-std::vector<std::string> own_words();
+std::vector<std::string> process_arguments();
 /// Restarts this program with linear algebra in one thread, unless the environment sets the number
 /// of threads: a threaded BLAS reads it when it is loaded. Throws Error.
 void restart_with_one_algebra_thread();

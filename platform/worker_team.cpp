@@ -51,14 +51,14 @@ void WorkerTeam::resize(int threads) {
   members_ = size_ = threads;
   shares_ = std::make_unique<Share[]>(static_cast<size_t>(threads));
   // The round is read here, not by the thread: one that starts late must not miss the first round.
-  const Marked seen = task_.round.load();
+  const PackedRound seen = task_.round.load();
   for (int member = 1; member < threads; ++member)
     workers_.emplace_back([this, member, seen] { work(member, seen); });
 }
 
 void WorkerTeam::stop() {
   ends_ = true;
-  const Marked round = task_.round.load(std::memory_order_relaxed) >> number_bits;
+  const PackedRound round = task_.round.load(std::memory_order_relaxed) >> number_bits;
   task_.round.store((round + 1) << number_bits, std::memory_order_release);  // no parts
   bell_.fetch_add(1, std::memory_order_release);
   bell_.notify_all();
@@ -69,8 +69,8 @@ void WorkerTeam::stop() {
 }
 
 void WorkerTeam::start(int parts, Call call, const void* context) {
-  const Marked number = (task_.round.load(std::memory_order_relaxed) >> number_bits) + 1;
-  const Marked round = (number << number_bits) + static_cast<Marked>(parts);
+  const PackedRound number = (task_.round.load(std::memory_order_relaxed) >> number_bits) + 1;
+  const PackedRound round = (number << number_bits) + static_cast<PackedRound>(parts);
   task_.call = call;
   task_.context = context;
   left_.store(parts, std::memory_order_relaxed);
@@ -86,21 +86,21 @@ void WorkerTeam::start(int parts, Call call, const void* context) {
 }
 
 /// Does those of `member`'s parts that nobody has taken yet; they are the same whoever does them.
-void WorkerTeam::do_parts(int member, Marked round) {
-  const Marked number = round >> number_bits, parts = round % (Marked{1} << number_bits);
-  const Marked members = static_cast<Marked>(members_),
-               begin = static_cast<Marked>(member) * parts / members,
-               end = (static_cast<Marked>(member) + 1) * parts / members;
-  std::atomic<Marked>& taken = shares_[static_cast<size_t>(member)].taken;
+void WorkerTeam::do_parts(int member, PackedRound round) {
+  const PackedRound number = round >> number_bits, parts = round % (PackedRound{1} << number_bits);
+  const PackedRound members = static_cast<PackedRound>(members_),
+                    begin = static_cast<PackedRound>(member) * parts / members,
+                    end = (static_cast<PackedRound>(member) + 1) * parts / members;
+  std::atomic<PackedRound>& taken = shares_[static_cast<size_t>(member)].taken;
   // The count is published once, at the end: the other cores may be far away.
   int done = 0;
   while (true) {
-    Marked now = taken.load(std::memory_order_acquire);
-    const Marked marked = now >> number_bits;
+    PackedRound now = taken.load(std::memory_order_acquire);
+    const PackedRound marked = now >> number_bits;
     if (marked > number) break;  // this round is over
     // A share that was last touched in an earlier round has all its parts left.
-    const Marked count = marked == number ? now % (Marked{1} << number_bits) : 0;
-    const Marked part = begin + count;
+    const PackedRound count = marked == number ? now % (PackedRound{1} << number_bits) : 0;
+    const PackedRound part = begin + count;
     if (part >= end) break;
     // The round goes on until this part is taken and done: the thread that takes it does so in this
     // round, and finds its task.
@@ -113,10 +113,10 @@ void WorkerTeam::do_parts(int member, Marked round) {
   if (done > 0) left_.fetch_sub(done, std::memory_order_release);
 }
 
-void WorkerTeam::work(int member, Marked seen) {
+void WorkerTeam::work(int member, PackedRound seen) {
   while (true) {
     // Waits awake for a short while, in which the next task usually comes; then sleeps.
-    Marked now = seen;
+    PackedRound now = seen;
     const auto has_come = [&] {
       return (now = task_.round.load(std::memory_order_acquire)) != seen;
     };

@@ -52,24 +52,24 @@ class WorkerTeam {
   /// A round and a number that belongs to it, read and written as one: round * 2^24 + number. A
   /// late thread therefore cannot take a part of a round that is over. Round numbers do not wrap
   /// around: 2^40 of them take months.
-  using Marked = std::uint64_t;
+  using PackedRound = std::uint64_t;
   static constexpr int number_bits = 24;
   /// The number of a member's parts that are taken, and in which round. It has a cache line of its
   /// own: nobody else touches it while its member is in time.
   struct alignas(64) Share {
-    std::atomic<Marked> taken{0};
+    std::atomic<PackedRound> taken{0};
   };
   /// The caller's message to the others, on one cache line: the round with its number of parts, and
   /// the task.
   struct alignas(64) Task {
-    std::atomic<Marked> round{0};
+    std::atomic<PackedRound> round{0};
     Call call = nullptr;
     const void* context = nullptr;
   };
 
   void start(int parts, Call call, const void* context);
-  void do_parts(int member, Marked round);
-  void work(int member, Marked seen);
+  void do_parts(int member, PackedRound round);
+  void work(int member, PackedRound seen);
   void stop();
 
   std::vector<std::thread> workers_;

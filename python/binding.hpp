@@ -58,12 +58,12 @@ inline py::array in_threes(Eigen::VectorXd x) {
 /// While it lives, this thread does without the interpreter's lock, and Python's others run. When
 /// Python ends meanwhile, a thread that wants the lock is unwound, which no solver survives: it
 /// waits for the end of the process instead.
-class Unlocked {
+class GilRelease {
  public:
-  Unlocked() = default;
-  ~Unlocked() { lock(); }
-  Unlocked(const Unlocked&) = delete;
-  Unlocked& operator=(const Unlocked&) = delete;
+  GilRelease() = default;
+  ~GilRelease() { lock(); }
+  GilRelease(const GilRelease&) = delete;
+  GilRelease& operator=(const GilRelease&) = delete;
 
   /// The handler of a signal, as Ctrl-C, has raised an exception: it is set.
   bool is_interrupted() {

@@ -114,7 +114,7 @@ py::dict solve(const FrictionProblem& problem, const std::string& name, double t
   bool is_interrupted = false;
   {
     // Other threads of Python go on.
-    Unlocked unlocked;
+    GilRelease unlocked;
     if (!is_absolute)
       tolerance *= contact_error(problem, Impulses::Zero(problem.row_count())).velocity_scale;
     Budget budget{tolerance, max_iterations, max_seconds, /*keep_history=*/true};

@@ -21,10 +21,10 @@ class SteppedScene {
       : scene_(read_scene(find_scene(name), overrides)) {
     bool is_interrupted = false;
     {
-      Unlocked unlocked;
-      const auto goes_on = [&] { return !(is_interrupted = unlocked.is_interrupted()); };
+      GilRelease unlocked;
+      const auto keep_going = [&] { return !(is_interrupted = unlocked.is_interrupted()); };
       Manifest manifest(name, overrides, "");
-      prepare_run(scene_, {packings, goes_on, StatusLine::Style::quiet}, manifest, run_);
+      prepare_run(scene_, {packings, keep_going, StatusLine::Style::quiet}, manifest, run_);
     }
     if (is_interrupted) throw py::error_already_set();
     stepper_ = std::make_unique<TimeStepper>(run_.system, scene_, run_.system.first_driven_wall());
@@ -34,10 +34,10 @@ class SteppedScene {
   py::dict step(long count, const py::object& callback, const py::object& self) {
     if (count < 0) throw std::invalid_argument("count: expected a number >= 0");
     StepRecord record;
-    bool goes_on = true;
-    for (long k = 0; k < count && goes_on; ++k) {
+    bool keep_going = true;
+    for (long k = 0; k < count && keep_going; ++k) {
       {
-        const Unlocked unlocked;
+        const GilRelease unlocked;
         const std::lock_guard held(busy_);
         unsolved_ = "the last step failed: it has no problem and no impulses";
         record = stepper_->step(run_.state, run_.memory);
@@ -47,7 +47,7 @@ class SteppedScene {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       } else {
         const py::object reply = callback(self, as_dict(record));
-        goes_on = reply.is_none() || py::bool_(reply);
+        keep_going = reply.is_none() || py::bool_(reply);
       }
     }
     return as_dict(record);

@@ -199,7 +199,7 @@ std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path
 bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
   const fs::path folder = folder_of(stage, turn), mark = folder / "measured_by";
   const std::string key = content_key(binary_key() + options.beside + command_of(stage)) + "\n";
-  if (is_there(mark)) {
+  if (path_exists(mark)) {
     if (read_whole_file(mark) == key) return true;
     fs::remove_all(folder);  // made by another program or command
   }
@@ -211,7 +211,7 @@ bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
     std::vector<std::string> words = stage.words;
     words.insert(words.end(), {"--output", folder.string()});
     const fs::path log = fs::path(stage.name) / printed("%d.log", turn);
-    const auto child = start_program(own_program(), words, log);
+    const auto child = start_program(executable_path(), words, log);
     bool is_told = false;  // once: a second signal would end it before its checkpoint
     while (!child->ends_within(0.2))
       if (InterruptGuard::requested() && !std::exchange(is_told, true)) child->send(SIGTERM);
@@ -229,7 +229,7 @@ StageNumbers numbers_of(const BenchPage& page) {
   StageNumbers all;
   for (const BenchStage& stage : page.stages)
     for (int turn = 1; turn <= stage.turns; ++turn)
-      if (const fs::path folder = folder_of(stage, turn); is_there(folder / "measured_by"))
+      if (const fs::path folder = folder_of(stage, turn); path_exists(folder / "measured_by"))
         for (const auto& [name, value] : read_stage(stage, folder))
           all[stage.name][name].push_back(value);
   return all;
@@ -239,7 +239,7 @@ StageNumbers numbers_of(const BenchPage& page) {
 /// expression that cannot be read.
 std::map<std::string, std::string> page_numbers(const BenchPage& page,
                                                 const StageNumbers& numbers) {
-  const Manifest here("bench all", own_words(), "");
+  const Manifest here("bench all", process_arguments(), "");
   std::map<std::string, std::string> result{{"date", here.started().substr(0, 10)},
                                             {"machine", here.machine()},
                                             {"commit", here.commit().substr(0, 12)}};
@@ -284,7 +284,8 @@ void write_page(const BenchPage& page, const std::map<std::string, std::string>&
   write_whole_file("measured/numbers.csv", rows.take());
   write_whole_file("results.md", filled_page(page, numbers));
   for (const BenchStage& stage : page.stages)
-    if (const fs::path figure = folder_of(stage, 1) / "figures/live_accuracy.svg"; is_there(figure))
+    if (const fs::path figure = folder_of(stage, 1) / "figures/live_accuracy.svg";
+        path_exists(figure))
       write_whole_file("measured/work_precision.svg", read_whole_file(figure));
 }
 

@@ -296,8 +296,8 @@ Scene bench_scene(const std::string& name, const std::vector<std::string>& overr
 DepositedBox deposited_box(const Scene& scene, const std::filesystem::path& cache) {
   DepositedBox box{scene, make_rain(scene), {}};
   const InterruptGuard guard;
-  const PackingOrder order{cache, [] { return !InterruptGuard::requested(); }};
-  if (!take_packing(box.scene, box.rain, order, box.packing))
+  const PackingOptions order{cache, [] { return !InterruptGuard::requested(); }};
+  if (!load_or_deposit(box.scene, box.rain, order, box.packing))
     throw Error("interrupted; the same command goes on depositing");
   return box;
 }

@@ -68,7 +68,7 @@ class Depositor {
 
  private:
   bool continue_part() {
-    if (!is_there(part_)) return false;
+    if (!path_exists(part_)) return false;
     packing_ = read_checkpoint(part_);
     if (packing_.key != packing_key(scene_)) return false;
     for (const BoxStage stage : {BoxStage::rain, BoxStage::press, BoxStage::settle})
@@ -135,16 +135,16 @@ class Depositor {
     while (packing_.state.step < last) {
       const StepRecord record = stepper.step(packing_.state, packing_.memory);
       rms_velocity_ = grain_rms_velocity(system, packing_.state);
-      const bool goes_on = progress_(stage_, rms_velocity_, record);
+      const bool keep_going = progress_(stage_, rms_velocity_, record);
       // The state at which the rain rests is never saved within the rain: a deposit continued from
       // there would make another step.
       if (stage_ == BoxStage::rain && rests()) break;
       // A checkpoint is written at intervals and on a stop; the same call continues from it.
-      if (!goes_on || since_saved.seconds() > scene_.record.checkpoint_seconds) {
+      if (!keep_going || since_saved.seconds() > scene_.record.checkpoint_seconds) {
         write_checkpoint(part_, packing_);
         since_saved.restart();
       }
-      if (!goes_on) return false;
+      if (!keep_going) return false;
     }
     return true;
   }
@@ -168,7 +168,7 @@ bool deposit(const Scene& scene, const Rain& rain, const fs::path& part,
 }
 
 bool read_packing(const fs::path& file, const std::string& key, Packing& packing) {
-  if (!is_there(file)) return false;
+  if (!path_exists(file)) return false;
   packing = read_checkpoint(file);
   if (packing.key != key || packing.phase != "packing")
     throw Error(file.string() + ": a packing of other settings: delete it");
@@ -192,8 +192,8 @@ fs::path packing_file(const fs::path& cache, const std::string& key) {
   return cache / ("packing-" + key + ".bin");
 }
 
-bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order,
-                  Packing& packing) {
+bool load_or_deposit(const Scene& scene, const Rain& rain, const PackingOptions& order,
+                     Packing& packing) {
   const std::string key = packing_key(scene);
   const fs::path file = packing_file(order.cache, key), part = file.string() + ".part";
   const auto say = [&](const std::string& words) {
@@ -210,7 +210,7 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   // one process deposits, the others wait for it
   const FileLock lock(file.string() + ".lock", [&](double waited) {
     if (waited == 0.0) say("waiting for the packing that another run deposits");
-    return order.goes_on();
+    return order.keep_going();
   });
   if (!lock.is_held()) return false;
   if (find()) return true;  // made by whoever held the lock
@@ -218,7 +218,7 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
   const bool is_tiled = scene.deposit.tiles() > 1;
   if (is_tiled) {
     const Scene one = tile_of(scene);
-    if (!take_packing(one, make_rain(one), order, tile)) return false;
+    if (!load_or_deposit(one, make_rain(one), order, tile)) return false;
   }
   say("depositing " + std::to_string(rain.grains.size()) + " grains (kept in " + file.string() +
       ")");
@@ -228,7 +228,7 @@ bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& orde
                         scene.deposit.settle_time};
   const auto show = [&](BoxStage stage, double velocity, const StepRecord& record) {
     progress.show(name_of(stage), end[static_cast<int>(stage)], record, velocity);
-    return order.goes_on();
+    return order.keep_going();
   };
   const bool is_done = deposit(scene, rain, part, show, packing, is_tiled ? &tile : nullptr);
   progress.finish();

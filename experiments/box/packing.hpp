@@ -37,17 +37,17 @@ MechanicalSystem drive_system(const Scene& scene, const Rain& rain, const Packin
 /// The file of the packing with this key (packing_key of a scene) in the folder of packings.
 std::filesystem::path packing_file(const std::filesystem::path& cache, const std::string& key);
 
-struct PackingOrder {
-  std::filesystem::path cache;    ///< the folder; created if it is missing
-  std::function<bool()> goes_on;  ///< asked once per step, and while waiting; false stops the
-                                  ///< deposit, which can be continued later
+struct PackingOptions {
+  std::filesystem::path cache;       ///< the folder; created if it is missing
+  std::function<bool()> keep_going;  ///< asked once per step, and while waiting; false stops the
+                                     ///< deposit, which can be continued later
   Progress::Style style = StatusLine::style_of_stderr();
 };
 
 /// Takes the scene's packing from the cache. A missing one is deposited, or waited for while
 /// another process deposits it. Prints on stdout which, on stderr the progress. Returns false when
 /// stopped. Throws Error: it does not come to rest, the file is broken or cannot be written.
-bool take_packing(const Scene& scene, const Rain& rain, const PackingOrder& order,
-                  Packing& packing);
+bool load_or_deposit(const Scene& scene, const Rain& rain, const PackingOptions& order,
+                     Packing& packing);
 
 }  // namespace ballast

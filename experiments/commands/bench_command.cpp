@@ -32,7 +32,7 @@ void say(const std::string& text) { std::cout << text << std::flush; }
 /// Checks the folder before hours of measuring: results of several kinds may share one.
 void require_own_results(const BenchRequest& request, const std::string& kind) {
   const std::filesystem::path file = request.output / (kind + ".json");
-  if (is_there(file)) read_bench_result(file);  // throws where it is none of ours
+  if (path_exists(file)) read_bench_result(file);  // throws where it is none of ours
   constexpr const char* ours = "\"measurements\": [";
   require_own_folder(
       request.output,

@@ -93,7 +93,7 @@ void add_word(CLI::App& app, Word& word) {
       option = app.add_option(name, value, word.meaning)->capture_default_str();
     };
     const auto add_kept = [&](auto& kept) {
-      if constexpr (std::is_same_v<decltype(kept), Parsed&>)
+      if constexpr (std::is_same_v<decltype(kept), TextParser&>)
         add(kept.text);
       else
         add(*kept);
@@ -133,7 +133,7 @@ void add_command(CLI::App& app, const std::string& path, Command& command, Comma
 
 ExitCode carry_out(const Command& command) {
   for (const Word& word : command.words) {
-    const Parsed* parsed = std::get_if<Parsed>(&word.value);
+    const TextParser* parsed = std::get_if<TextParser>(&word.value);
     if (!parsed) continue;
     try {
       parsed->use(parsed->text);
@@ -179,7 +179,7 @@ std::string complaint(const CLI::App& program, int argc, const char* const* argv
 }  // namespace
 
 std::string own_command() {
-  std::vector<std::string> words = own_words();
+  std::vector<std::string> words = process_arguments();
   words[0] = "ballast";
   return shell_line(words);
 }

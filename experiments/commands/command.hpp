@@ -39,20 +39,20 @@ Rule needs(const std::string& other);
 
 /// A text that `use` converts before the command acts, whether given or the default. An exception
 /// from `use` is reported with the word's name.
-struct Parsed {
+struct TextParser {
   std::string text;
   std::function<void(const std::string&)> use;
 };
 /// value = parser(text); `text` is the default.
 template <class Value, class Parser>
-Parsed into(Value& value, Parser parser, std::string text = {}) {
+TextParser into(Value& value, Parser parser, std::string text = {}) {
   return {std::move(text), [&value, parser](const std::string& given) { value = parser(given); }};
 }
 
 /// One argument or option.
 struct Word {
   using Value = std::variant<std::string*, std::filesystem::path*, double*, int*, bool*,
-                             std::vector<std::string>*, std::vector<int>*, Parsed>;
+                             std::vector<std::string>*, std::vector<int>*, TextParser>;
 
   template <class... Rules>
   Word(std::string name_, Value value_, std::string meaning_, const Rules&... rules_)

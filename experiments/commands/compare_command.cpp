@@ -179,14 +179,14 @@ struct CompareRequest {
   bool report = true, is_quiet = false;
 };
 
-bool show(const CompareRow& row, bool was_there, size_t done, size_t count) {
+bool show(const CompareRow& row, bool was_stored, size_t done, size_t count) {
   std::cout << printed("%5zu/%zu  %-34.34s ", done, count, row.case_name.c_str());
   if (row.verdict == Verdict::unreadable)
     std::cout << "unreadable: " << row.note;
   else
     std::cout << printed("%-14s %-6g %-4s %-13s %10.4g s  error %9.3g%s%s", row.solver.c_str(),
                          row.tolerance, name_of(row.start), name_of(row.verdict), row.seconds(),
-                         row.error, was_there ? "  (was there)" : "",
+                         row.error, was_stored ? "  (was there)" : "",
                          row.verdict == Verdict::denied ? "  JUDGE DISAGREES" : "")
               << (row.note.empty() ? "" : "  " + row.note);
   std::cout << std::endl;
@@ -270,8 +270,8 @@ ExitCode compare(CompareRequest& options) {
   const InterruptGuard guard;
   // Destroyed before `guard`: the programs and their folders go while SIGPIPE is still ignored.
   const CompareOptions comparison = std::exchange(options.comparison, {});
-  const auto told = [&](const CompareRow& row, bool was_there, size_t done, size_t count) {
-    return options.is_quiet ? !InterruptGuard::requested() : show(row, was_there, done, count);
+  const auto told = [&](const CompareRow& row, bool was_stored, size_t done, size_t count) {
+    return options.is_quiet ? !InterruptGuard::requested() : show(row, was_stored, done, count);
   };
   const std::vector<CompareRow> rows = run_comparison(cases, comparison, told);
   if (InterruptGuard::requested()) throw Error(interrupted);

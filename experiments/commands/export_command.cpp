@@ -116,7 +116,7 @@ ExitCode export_run(const ExportOptions& options) {
     throw UsageError(output + ": --view, --chains, --width and --height go with .png alone");
   if (!is_picture(options) && options.frames && options.frames->first < options.frames->second)
     throw UsageError(output + ": --frames FIRST:LAST goes with .png alone; --all: every frame");
-  if (!is_there(options.source))
+  if (!path_exists(options.source))
     throw Error(options.source.string() + ": no such run folder or checkpoint");
   const bool from_folder = is_folder(options.source);
   if (options.all || options.frames || !std::isnan(options.time) || is_picture(options)) {
@@ -193,7 +193,7 @@ Command export_command() {
         "Number of the stored frame, from 0; .png: FIRST:LAST is a moving picture (default: last)",
         excludes("--time")},
        {"--view FROM",
-        Parsed{"home", [options](const std::string& word) { set_view(options->still, word); }},
+        TextParser{"home", [options](const std::string& word) { set_view(options->still, word); }},
         ".png: seen from home, x, -x, y, -y, z, or YAW,PITCH in degrees"},
        {"--chains", &options->still.with_chains,
         ".png: draws force chains, and bodies as glass; needs a run with record.forces=true"},

@@ -107,7 +107,7 @@ std::string check(const std::string& file, const CheckOptions& options) {
   if (suffix == ".obj" || suffix == ".stl") return check_mesh(file, options);
   if (suffix == ".hdf5" || suffix == ".h5" || suffix == ".dat") return check_problem(file);
   if (suffix == ".bin" || suffix == ".part") return check_checkpoint(file);
-  if (is_there(file) || !suffix.empty())
+  if (path_exists(file) || !suffix.empty())
     throw UsageError(
         file + ": unknown kind of file, expected .toml, .obj, .stl, .hdf5, .h5, .dat or .bin");
   return check_scene(file, options);

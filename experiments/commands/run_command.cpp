@@ -36,21 +36,22 @@ struct RunRequest {
 /// This command line, changed so that it continues the run that it has begun, from the folder where
 /// it was given and with all its options.
 std::string command_that_goes_on() {
-  std::vector<std::string> words = own_words();
-  words[0] = own_program().string();
+  std::vector<std::string> words = process_arguments();
+  words[0] = executable_path().string();
   // The option that would begin the run anew is left out.
   std::erase(words, "--overwrite");
   const auto is_given = [&](const char* word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
   if (!is_given("--continue") && !is_given("--deposit-only")) words.push_back("--continue");
-  return "cd " + shell_word(std::filesystem::current_path().string()) + " && " + shell_line(words);
+  return "cd " + shell_quoted(std::filesystem::current_path().string()) + " && " +
+         shell_line(words);
 }
 
 /// Draws the run's page where it is asked for, unless a finished run has it; prints where the
 /// results are and what can be done next.
 void show_results(const RunEnd& end, const RunRequest& request, bool has_grains) {
-  const bool with_page = request.with_page, has_page = is_there(end.folder / "report.html");
+  const bool with_page = request.with_page, has_page = path_exists(end.folder / "report.html");
   if (with_page && (!end.was_finished || !has_page)) write_report(end.folder);
   if (end.was_finished || request.run.style == Progress::Style::quiet) return;
   std::cout << "\nresults in " << end.folder.string() << "\n";
@@ -58,7 +59,7 @@ void show_results(const RunEnd& end, const RunRequest& request, bool has_grains)
     std::cout << "  report.html   figures and the table of the run: open it in a browser\n";
   std::cout << "  steps.csv     every step's scalars\n"
             << "  record.h5     the same and the poses (HDF5)\n";
-  if (is_there(end.folder / "capture"))
+  if (path_exists(end.folder / "capture"))
     std::cout << "  capture/      friction problems of steps, for ballast compare\n";
   else if (request.run.capture.to > 0)
     std::cout << "  no capture/   the run has no step that --capture names\n";
@@ -69,10 +70,10 @@ void show_results(const RunEnd& end, const RunRequest& request, bool has_grains)
 /// Prints what the user must know of a finished run. With --strict only a clean run is a success.
 ExitCode tell_trust(const RunData& data, const RunRequest& request) {
   const RunSummary run = summarise(data.steps, data.facts);
-  const bool is_failure = request.strict && !is_clean(run);
+  const bool is_failure = request.strict && !has_no_findings(run);
   if (is_failure || request.run.style != Progress::Style::quiet) {
     std::cout << "\nto be known\n";
-    for (const std::string& words : trust_words(run)) std::cout << "  " << words << '\n';
+    for (const std::string& words : run_findings(run)) std::cout << "  " << words << '\n';
     std::cout << std::flush;
   }
   if (!is_failure) return ExitCode::ok;
@@ -114,7 +115,7 @@ void list_runs(const Plan& plan, const PlanOptions& running) {
   std::cout << printed("%-*s  %-16s  %-8s  %9s  packing\n", widest, "name", "key", "state",
                        "steps");
   for (const PlannedRun& run : runs) {
-    const bool is_stored = is_there(packing_file(packing_folder(running.results), run.packing));
+    const bool is_stored = path_exists(packing_file(packing_folder(running.results), run.packing));
     const std::string packing =
         run.packing.empty() ? "none" : run.packing + (is_stored ? "" : " (to deposit)");
     std::cout << printed("%-*s  %s  %-8s  %9ld  %s\n", widest, run.name.c_str(), run.key.c_str(),
@@ -211,8 +212,8 @@ ExitCode reproduce(PaperOptions options) {
     return code;
   }
   if (options.target == "archive") {
-    const ArchiveOrder order{options.campaign.plan, options.running.results / "packings",
-                             options.output};
+    const ArchiveOptions order{options.campaign.plan, options.running.results / "packings",
+                               options.output};
     std::cout << write_archive(known, order).string() << std::endl;
     return ExitCode::ok;
   }

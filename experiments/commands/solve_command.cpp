@@ -287,7 +287,7 @@ ExternalAnswer answer_to(const ExternalRequest& request, const MakeSolver& make)
 void answer_file(const std::filesystem::path& problem, const std::filesystem::path& answer,
                  const MakeSolver& make) {
   const ExternalRequest request = read_request(problem);
-  if (is_there(answer) && std::filesystem::equivalent(problem, answer))
+  if (path_exists(answer) && std::filesystem::equivalent(problem, answer))
     throw Error(answer.string() + ": is the request itself: the answer needs another file");
   write_answer(answer, request, answer_to(request, make));
 }
@@ -325,7 +325,7 @@ Command solve_command() {
           {{"files", &options->files, "Problem files: FCLIB .hdf5, .h5; Siconos .dat", required},
            {"--solver", into(options->solver, backend_of, "pgs"), "A name from ballast solvers"},
            {"--external NAME=COMMAND",
-            Parsed{"", [options](const std::string& word) { use_program(*options, word); }},
+            TextParser{"", [options](const std::string& word) { use_program(*options, word); }},
             "Solves with your own program (docs/manual/external.md)", excludes("--solver")},
            {"--tolerance", &options->tolerance, "Bound on the error / velocity scale", at_least(0)},
            {"--absolute", &options->absolute, "The tolerance is in m/s"},

@@ -121,7 +121,7 @@ class Collection {
     create_folder(file.parent_path());
     fs::remove(other);  // left from another keeps_held_apart
     if (const std::string bytes = read_whole_file(source);
-        !is_there(file) || read_whole_file(file) != bytes) {
+        !path_exists(file) || read_whole_file(file) != bytes) {
       fs::remove(reference_of(file));  // belongs to another problem
       write_whole_file(file, bytes);
     }
@@ -159,7 +159,7 @@ class Collection {
     const fs::path answer = reference_of(file);
     Reference known;
     double had = 0.0;  // time limit of the stored reference [s]
-    if (is_there(answer)) {
+    if (path_exists(answer)) {
       const Hdf5Reader kept(answer);
       const auto number = [&](const char* entry) {
         return kept.read<double>(std::string("/ballast_answer/") + entry).at(0);

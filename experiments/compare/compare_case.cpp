@@ -94,7 +94,7 @@ LoadedCase load_captured(const fs::path& file) {
 
 /// Adds the reference of the file, if there is one.
 LoadedCase with_reference(LoadedCase loaded, const fs::path& file) {
-  if (const fs::path answer = reference_of(file); is_there(answer))
+  if (const fs::path answer = reference_of(file); path_exists(answer))
     loaded.exact = read_solution(answer, loaded.problem);
   return loaded;
 }
@@ -104,7 +104,7 @@ CompareCase file_case(const fs::path& file) {
                    .family = family_of_file(file.filename().string()),
                    .load =
                        [file] {
-                         if (!is_there(file)) throw Error(file.string() + ": no such file");
+                         if (!path_exists(file)) throw Error(file.string() + ": no such file");
                          return with_reference(load_case(read_problem(file)), file);
                        },
                    .word = file.string()};

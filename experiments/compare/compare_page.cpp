@@ -112,7 +112,7 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
   page.add(backends);
   page.add({"failures", "What must not happen", {failures_table(rows)}});
   // The page makes these sections itself, in the reader's browser.
-  if (page::can_answer())
+  if (page::has_chart_library())
     for (const auto& [id, heading] : {std::pair("matrix", "Every case by every backend"),
                                       {"profiles", "Profiles"},
                                       {"families", "Accuracy against cost, by family"},
@@ -202,13 +202,13 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
   for (const CompareRow& row : rows) {
     const std::vector<std::string> cells = cells_of(row);
     for (size_t c = 0; c < names.size(); ++c) add(cells[c], columns[c]);
-    add(shell_word(row.word.empty() ? row.case_name : row.word), words);
+    add(shell_quoted(row.word.empty() ? row.case_name : row.word), words);
     add(row.can_view ? "yes" : "", can_view);
     add(row.history.size() > 1 ? history_text(row, points) : "", histories);
   }
   for (size_t c = 0; c < names.size(); ++c) json["columns"][names[c]] = columns[c];
   json["more"] = {{"word", words}, {"can_view", can_view}, {"history", histories}};
-  page::Answers answers{.are_given = true};
+  page::Answers answers{.is_enabled = true};
   answers.data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (const char* name : modules) answers.modules.push_back(comparison_file(name));
   return answers;

@@ -55,8 +55,8 @@ class Comparison {
     create_folder(options_.folder / "rows");
     count_ = cases_.size() * options_.tolerances.size() * options_.starts.size() *
              options_.solvers.size() * static_cast<size_t>(options_.repeats);
-    for (int repeat = 0; repeat < options_.repeats && goes_on_; ++repeat)
-      for (size_t c = 0; c < cases_.size() && goes_on_; ++c) try_case(cases_[c], repeat);
+    for (int repeat = 0; repeat < options_.repeats && keep_going_; ++repeat)
+      for (size_t c = 0; c < cases_.size() && keep_going_; ++c) try_case(cases_[c], repeat);
     write_whole_file(options_.folder / "results.csv", compare_csv(rows_));
     describe(manifest);
     manifest.write(options_.folder / "manifest.json");
@@ -100,7 +100,7 @@ class Comparison {
     for (const double tolerance : options_.tolerances)
       for (const StartKind start : starts)
         for (const ComparedSolver& solver : options_.solvers) {
-          if (!goes_on_) return;
+          if (!keep_going_) return;
           ++done_;
           row.solver = solver.name;
           row.law = name_of(solver.law);
@@ -111,8 +111,8 @@ class Comparison {
         }
   }
 
-  void add(CompareRow row, bool was_there) {
-    goes_on_ = progress_(row, was_there, done_, count_);
+  void add(CompareRow row, bool was_stored) {
+    keep_going_ = progress_(row, was_stored, done_, count_);
     rows_.push_back(std::move(row));
   }
 
@@ -121,7 +121,7 @@ class Comparison {
     const std::string numbers =
         printed("%.17g %.17g %.17g %d %.17g %.17g %d %d", row.tolerance, row.max_seconds,
                 options_.exact_seconds, limits.max_iterations, limits.memory_MB,
-                limits.warm_seconds, limits.most_runs, row.repeat);
+                limits.min_timing_seconds, limits.most_runs, row.repeat);
     return content_key("compare row 4|" + binary_ + '|' + row.case_name + '|' + row.facts.content +
                        '|' + row.solver + '|' + solver.external_key + '|' + name_of(row.measure) +
                        '|' + name_of(row.start) + '|' + numbers);
@@ -144,21 +144,21 @@ class Comparison {
     if (row.repeat > 0 && unsolved_.contains(identity)) return;
     row.key = key_of(row, solver);
     const fs::path file = options_.folder / "rows" / (row.key + ".json");
-    const bool was_there = take_stored(file, row);
-    if (!was_there) {
+    const bool was_stored = take_stored(file, row);
+    if (!was_stored) {
       const auto looser = late_.find(who);
       if (looser != late_.end() && looser->second.tolerance > row.tolerance)
         row = late_row(looser->second, row);
       else
         solve_case(solver, loaded, options_.limits, row);
       // an interrupt reaches the child as well, so its answer is no result
-      goes_on_ = !InterruptGuard::requested();
-      if (!goes_on_) return;
+      keep_going_ = !InterruptGuard::requested();
+      if (!keep_going_) return;
       write_whole_file(file, to_json(row));
     }
     if (row.verdict != Verdict::solved) unsolved_.insert(identity);
     if (row.verdict == Verdict::timeout) late_.emplace(who, row);
-    add(std::move(row), was_there);
+    add(std::move(row), was_stored);
   }
 
   /// Returns false where the file is missing, damaged or of another row.
@@ -175,7 +175,7 @@ class Comparison {
 
   void describe(Manifest& manifest) const {
     manifest.summary("rows", static_cast<double>(rows_.size()));
-    manifest.summary("complete", goes_on_ ? "yes" : "no: stopped; the same command goes on");
+    manifest.summary("complete", keep_going_ ? "yes" : "no: stopped; the same command goes on");
     manifest.summary("measure", name_of(options_.measure));
     manifest.summary("max_seconds", options_.max_seconds);
     manifest.summary("memory_MB", options_.limits.memory_MB);
@@ -199,7 +199,7 @@ class Comparison {
   std::set<std::string> unsolved_, unreadable_;
   std::map<std::string, CompareRow> late_;  ///< the loosest timeout of a case, backend and start
   size_t done_ = 0, count_ = 0;
-  bool goes_on_ = true;
+  bool keep_going_ = true;
 };
 
 }  // namespace
@@ -234,7 +234,7 @@ Reference find_reference(const LoadedCase& loaded, double max_seconds) {
 void find_exact(LoadedCase& loaded, double max_seconds, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / (loaded.facts.content + ".exact");
   if (is_exact(loaded)) return;
-  if (max_seconds > 0.0 && is_there(file)) loaded.exact = impulses_of(read_whole_file(file));
+  if (max_seconds > 0.0 && path_exists(file)) loaded.exact = impulses_of(read_whole_file(file));
   if (is_exact(loaded)) return;
   loaded.exact.resize(0);
   if (!(max_seconds > 0.0)) return;

@@ -47,7 +47,7 @@ struct CompareOptions {
 /// Called after each attempt, stored rows included: `done` of `count`. Returning false stops the
 /// comparison; the rows so far stay.
 using CompareProgress =
-    std::function<bool(const CompareRow& row, bool was_there, size_t done, size_t count)>;
+    std::function<bool(const CompareRow& row, bool was_stored, size_t done, size_t count)>;
 
 /// Tries every combination without a row, and returns the rows in order: repeat, case, tolerance,
 /// start, solver. Where a solver ran out of time to a looser tolerance, a tighter one is not tried:

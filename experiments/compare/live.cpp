@@ -157,7 +157,7 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
       options.folder / "trajectories" /
       (content_key("trajectory 4|" + binary + '|' + start.key + '|' + solver.name + numbers) +
        ".bin");
-  if (is_there(file)) {
+  if (path_exists(file)) {
     Trajectory stored = trajectory;
     try {
       unpack(read_sealed_file(file, trajectory_kind), file.string(), stored);
@@ -173,8 +173,8 @@ Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const S
 }
 
 std::string command_of(const LiveOptions& options) {
-  std::string command = "ballast compare --live " + shell_word(options.scene);
-  for (const std::string& one : options.overrides) command += " --set " + shell_word(one);
+  std::string command = "ballast compare --live " + shell_quoted(options.scene);
+  for (const std::string& one : options.overrides) command += " --set " + shell_quoted(one);
   return command + printed(" --from %g --duration %g --max-seconds %g", options.start,
                            options.duration, options.max_seconds);
 }
@@ -236,15 +236,15 @@ LiveComparison run_live(const LiveOptions& options,
     wanted.emplace_back().iterations = count;
     wanted.back().tolerance = not_known;
   }
-  bool goes_on = true;
+  bool keep_going = true;
   for (Trajectory& trajectory : wanted)
     for (const ComparedSolver& solver : options.solvers) {
-      if (!goes_on || InterruptGuard::requested()) break;
+      if (!keep_going || InterruptGuard::requested()) break;
       trajectory.solver = solver.name;
       trajectory.law = name_of(solver.law);
       comparison.trajectories.push_back(
           trajectory_of(options, comparison.scene, start, binary, solver, trajectory));
-      goes_on = said(comparison.trajectories.back());
+      keep_going = said(comparison.trajectories.back());
     }
   comparison.reference = reference_of(comparison.trajectories);
   comparison.command = command_of(options);

@@ -288,7 +288,7 @@ void write_live_page(const std::filesystem::path& folder, const LiveComparison& 
   page::Section figures{"figures", "Figures"};
   figures.add(live_figures(comparison));
   page.add(figures);
-  page.answers = {.are_given = true, .with_curves = true};
+  page.answers = {.is_enabled = true, .has_charts = true};
   write_with_origin(page, read_origin(folder), folder / "live.html");
 }
 

@@ -64,7 +64,7 @@ void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const So
     account.solved = std::move(run.solved);
     if (!run.failure.empty()) account.solved.impulses.resize(0);
   } while (account.solved.reason == StopReason::reached_tolerance && row.runs < limits.most_runs &&
-           spent + row.seconds() < limits.warm_seconds);
+           spent + row.seconds() < limits.min_timing_seconds);
 }
 
 /// The child's whole work. The parent does it for an external program.
@@ -142,7 +142,7 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
   }
   // Backends look at the clock between iterations, but prepare() never does, so the child has some
   // time more before it is killed.
-  const double most_seconds = 1.25 * row.max_seconds + 2.0 + 2.0 * limits.warm_seconds;
+  const double most_seconds = 1.25 * row.max_seconds + 2.0 + 2.0 * limits.min_timing_seconds;
   const ChildResult child = run_in_child(most_seconds, [&] {
     const auto bytes = static_cast<rlim_t>(limits.memory_MB * 1048576.0);
     const rlimit limit{bytes, bytes};

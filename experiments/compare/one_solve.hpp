@@ -19,7 +19,7 @@ using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 struct SolveLimits {
   int max_iterations = 1 << 30;
   double memory_MB = 4096.0;  ///< limit of address space, the program's own included; 0: none
-  double warm_seconds =
+  double min_timing_seconds =
       0.25;  ///< a shorter solve is repeated in the child for about this time, and the fastest run
              ///< counts: a solve faster than a page fault is otherwise not measured
   int most_runs = 20;  ///< in one child

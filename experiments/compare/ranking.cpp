@@ -45,7 +45,9 @@ Estimate estimate_of(const std::vector<double>& values, bool is_drawn) {
 
 }  // namespace
 
-std::string world_of(const CompareRow& row) { return row.family.substr(0, row.family.find(", ")); }
+std::string base_family(const CompareRow& row) {
+  return row.family.substr(0, row.family.find(", "));
+}
 
 std::string run_of(const std::string& case_name) {
   return case_name.substr(0, case_name.rfind("step_"));

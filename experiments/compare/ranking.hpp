@@ -29,7 +29,7 @@ struct TriedCases {
 std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows, double shift = summary_shift);
 
 /// The family without a captured case's phase: "shaken, active" -> "shaken".
-std::string world_of(const CompareRow& row);
+std::string base_family(const CompareRow& row);
 
 /// The part of its name that a case shares with all cases of its run: "shaken/25-1-step_0000050" ->
 /// "shaken/25-1-". Cases of one run are alike, so the bootstrap draws runs, not cases.

@@ -30,7 +30,7 @@ std::string size_of(const CompareRow& row) {
 }
 
 bool is_of(const CompareRow& row, const std::string& kind) {
-  return kind == everything || world_of(row) == kind || size_of(row) == kind;
+  return kind == everything || base_family(row) == kind || size_of(row) == kind;
 }
 
 page::Text solved(const BackendSummary& s) {
@@ -72,7 +72,7 @@ class Ranking {
       if (row.verdict == Verdict::unreadable) continue;
       rows_.push_back(row);
       rows_.back().history.clear();  // rows are copied for each kind
-      families.insert(world_of(row));
+      families.insert(base_family(row));
       sizes[row.facts.contacts] = size_of(row);
     }
     kinds_.assign(families.begin(), families.end());
@@ -101,7 +101,7 @@ class Ranking {
     page.add({"families", "The problems", {page::words("ranking.families"), problems()}});
     page.add(each);
     page.add(failures);
-    page.answers.are_given = true;
+    page.answers.is_enabled = true;
     return page;
   }
 

@@ -145,7 +145,7 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
           determination(least, samples.y)};
 }
 
-double student_p(double t, double degrees_of_freedom) {
+double t_test_p(double t, double degrees_of_freedom) {
   if (!(degrees_of_freedom > 0.0) || std::isnan(t)) return not_known;
   return Eigen::numext::betainc(0.5 * degrees_of_freedom, 0.5,
                                 degrees_of_freedom / (degrees_of_freedom + t * t));
@@ -157,12 +157,12 @@ double student_t95(int degrees_of_freedom) {
   double low = 1.9, high = 13.0;
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
-    (student_p(middle, degrees_of_freedom) > 0.05 ? low : high) = middle;
+    (t_test_p(middle, degrees_of_freedom) > 0.05 ? low : high) = middle;
   }
   return low;
 }
 
-double f_p(double ratio, double above, double below) {
+double f_test_p(double ratio, double above, double below) {
   if (!(above > 0.0) || !(below > 0.0) || std::isnan(ratio)) return not_known;
   // beyond this many degrees of freedom nothing changes in the fourth digit
   const double bounded = std::min(below, 1e6);
@@ -214,7 +214,7 @@ PooledError pooled_error(std::span<const std::vector<double>> groups) {
   return pooled;
 }
 
-VarianceRatio difference_of(std::span<const std::vector<double>> groups) {
+VarianceRatio repeated_anova(std::span<const std::vector<double>> groups) {
   const size_t kinds = groups.size(), samples = kinds > 0 ? groups.front().size() : 0;
   if (kinds < 2 || samples < 2) return {};
   Eigen::MatrixXd all(samples, kinds);
@@ -227,14 +227,14 @@ VarianceRatio difference_of(std::span<const std::vector<double>> groups) {
   all.rowwise() -= means;
   const double above = kinds - 1.0, below = above * (samples - 1.0);
   const double between = samples * means.squaredNorm() / above, within = all.squaredNorm() / below;
-  return {between / within, f_p(between / within, above, below)};
+  return {between / within, f_test_p(between / within, above, below)};
 }
 
 void Points::add(double at, const SampleMean& mean) {
   x.push_back(at);
   y.push_back(mean.mean);
   error.push_back(mean.error);
-  errors_from += std::max(0, mean.samples - 1);
+  error_dof += std::max(0, mean.samples - 1);
 }
 
 PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
@@ -271,9 +271,9 @@ VarianceRatio misfit_of(const Points& points) {
     misses += miss * miss;
   }
   if (counted < 3 || !std::isfinite(misses) || !(variances > 0.0)) return {};
-  const double reduced = misses / (counted - 2) / (variances / counted);
+  const double reduced_chi2 = misses / (counted - 2) / (variances / counted);
   // the errors come from few samples: the ratio is one of two variances, not chi^2 of known errors
-  return {reduced, f_p(reduced, counted - 2, points.errors_from)};
+  return {reduced_chi2, f_test_p(reduced_chi2, counted - 2, points.error_dof)};
 }
 
 Proportion fit_proportion(std::span<const double> x, std::span<const double> y) {
@@ -341,8 +341,8 @@ WeightedFit fit_weighted(const Eigen::MatrixXd& design, const Eigen::VectorXd& y
 VarianceRatio improvement(const WeightedFit& less, const WeightedFit& more) {
   const int further = less.degrees_of_freedom - more.degrees_of_freedom;
   if (further < 1 || more.degrees_of_freedom < 1) return {};
-  const double ratio = (less.chi2 - more.chi2) / further / more.reduced();
-  return {ratio, f_p(ratio, further, more.degrees_of_freedom)};
+  const double ratio = (less.chi2 - more.chi2) / further / more.reduced_chi2();
+  return {ratio, f_test_p(ratio, further, more.degrees_of_freedom)};
 }
 
 }  // namespace ballast

@@ -50,12 +50,12 @@ struct ExponentialFit {
 ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y);
 
 /// Probability that Student's t with this many degrees of freedom is at least |t| away from 0.
-double student_p(double t, double degrees_of_freedom);
+double t_test_p(double t, double degrees_of_freedom);
 /// Two-sided 95 % quantile of Student's t. Infinite without a degree of freedom.
 double student_t95(int degrees_of_freedom);
 /// Probability that a ratio of variances is at least this large by chance: F distribution with
 /// these degrees of freedom above and below. For unbounded `below` it is that of chi^2/above.
-double f_p(double ratio, double above, double below);
+double f_test_p(double ratio, double above, double below);
 /// Holm's correction of the p of tests that are asked together, in the order given. It bounds the
 /// probability that any of them is small by chance.
 std::vector<double> holm(std::span<const double> p);
@@ -68,7 +68,7 @@ struct SampleMean {
   /// The half width of the 95 % confidence interval.
   double half_width() const { return student_t95(samples - 1) * error; }
   /// The probability of a mean at least so far from zero where the true mean is zero.
-  double p() const { return student_p(mean / error, samples - 1); }
+  double p() const { return t_test_p(mean / error, samples - 1); }
   /// Standard deviation of one sample.
   double deviation() const { return error * std::sqrt(static_cast<double>(samples)); }
 };
@@ -89,13 +89,13 @@ struct VarianceRatio {
 /// Tests whether groups differ by more than their samples scatter, each sample's own mean being
 /// taken out. Every sample is measured in every group (value s of each group is sample s). Returns
 /// F and its p; NaN where a group lacks a sample.
-VarianceRatio difference_of(std::span<const std::vector<double>> groups);
+VarianceRatio repeated_anova(std::span<const std::vector<double>> groups);
 
 /// Measured points: means over samples.
 struct Points {
   std::vector<double> x, y;
   std::vector<double> error;  ///< standard errors of y
-  int errors_from = 0;        ///< degrees of freedom of all errors together: samples minus points
+  int error_dof = 0;          ///< degrees of freedom of all errors together: samples minus points
 
   void add(double at, const SampleMean& mean);
 };
@@ -152,7 +152,7 @@ struct WeightedFit {
   double chi2 = not_known;     ///< squared residuals in units of the squared errors
   int degrees_of_freedom = 0;  ///< points minus values
 
-  double reduced() const { return chi2 / degrees_of_freedom; }
+  double reduced_chi2() const { return chi2 / degrees_of_freedom; }
   /// A linear combination of the values, with its standard error.
   double at(const Eigen::VectorXd& row) const { return row.dot(value); }
   double error_at(const Eigen::VectorXd& row) const { return std::sqrt(row.dot(covariance * row)); }

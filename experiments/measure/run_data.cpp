@@ -83,8 +83,8 @@ void add_settings(const Scene& scene, RunFacts& facts) {
 /// NaN where the summary has no such number.
 double summary_number(const RunData& data, const std::string& name) {
   const nlohmann::ordered_json::json_pointer place("/summary/" + name);
-  const bool is_there = data.manifest().contains(place) && data.manifest()[place].is_number();
-  return is_there ? data.manifest()[place].get<double>() : not_known;
+  const bool is_number = data.manifest().contains(place) && data.manifest()[place].is_number();
+  return is_number ? data.manifest()[place].get<double>() : not_known;
 }
 
 /// Facts from the scene, and those of the packing from the manifest's summary.

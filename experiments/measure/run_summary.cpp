@@ -137,7 +137,7 @@ void summarise_wall(std::span<const StepRecord> steps, RunSummary& summary) {
   summary.law = force_law(steps, summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity);
   std::vector<double> errors;
   for (const StepRecord& step : steps)
-    if (step.time > transient_of(facts.frequency)) errors.push_back(step.error_rms);
+    if (step.time > transient_end(facts.frequency)) errors.push_back(step.error_rms);
   summary.error_counted = statistics(errors).mean / facts.velocity_scale;
 }
 
@@ -219,7 +219,7 @@ std::vector<Displacement> period_displacements(std::span<const MotionState> fram
   return all;
 }
 
-double Roll::roundness() const {
+double Roll::side_ratio() const {
   double weakest = not_known, strongest = 0.0;
   for (const double side : along) {
     const double with = circulation < 0.0 ? -side : side;
@@ -317,9 +317,11 @@ const char* error_unit(const RunSummary& run) {
   return std::isfinite(scale) && scale != 1.0 ? "g h" : "m/s";
 }
 
-bool is_clean(const RunSummary& run) { return run.missed == 0 && !overlaps(run) && !gains(run); }
+bool has_no_findings(const RunSummary& run) {
+  return run.missed == 0 && !overlaps(run) && !gains(run);
+}
 
-std::vector<std::string> trust_words(const RunSummary& run) {
+std::vector<std::string> run_findings(const RunSummary& run) {
   std::vector<std::string> words;
   if (run.missed > 0) words.push_back(steps_words(run));
   if (overlaps(run)) words.push_back(overlap_words(run));

@@ -45,7 +45,7 @@ struct Roll {
   double circulation = not_known;  ///< its integral around the rectangle [m^2]
   /// The weakest side over the strongest, in the sense of the circulation. 1: all sides are alike.
   /// Negative: one side goes against it, and the grains do not go round.
-  double roundness() const;
+  double side_ratio() const;
 };
 /// Grains within `reach` [m] of a side, about a grain's size, count for it. Where one side has no
 /// grain the whole roll is not known.
@@ -203,10 +203,10 @@ inline constexpr double visible_overlap = 0.01, visible_gain = 0.01;
 const char* error_unit(const RunSummary& run);
 
 /// Returns whether there is no finding.
-bool is_clean(const RunSummary& run);
+bool has_no_findings(const RunSummary& run);
 
 /// One text for each finding: the finding, then its remedy. Without findings a single sentence says
 /// so.
-std::vector<std::string> trust_words(const RunSummary& run);
+std::vector<std::string> run_findings(const RunSummary& run);
 
 }  // namespace ballast

@@ -87,7 +87,7 @@ bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, do
 
 void find_phases(std::span<const StepRecord> steps, double duration_of_period, double h,
                  WallCycles& cycles) {
-  const double transient = transient_of(1.0 / duration_of_period);
+  const double transient = transient_end(1.0 / duration_of_period);
   const size_t first = first_after(steps, transient, h);
   // slow is relative to the fastest motion after the transient
   std::vector<double> speed;
@@ -125,7 +125,7 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
 
 }  // namespace
 
-double transient_of(double frequency) { return std::max(0.3, 1.0 / frequency); }
+double transient_end(double frequency) { return std::max(0.3, 1.0 / frequency); }
 
 size_t first_after(std::span<const StepRecord> steps, double t, double h) {
   const auto later = std::ranges::partition_point(
@@ -148,7 +148,7 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
   cycles.velocity = low_pass(record_column(steps, &StepRecord::wall_v), width);
   cycles.phase.assign(steps.size(), WallPhase::none);
   if (steps.empty()) return cycles;
-  const double transient = transient_of(frequency), end_time = steps.back().time;
+  const double transient = transient_end(frequency), end_time = steps.back().time;
   if (duration_of_period < h || transient > end_time) return cycles;
 
   // Period k begins at k/nu, where the load falls through its mean. A quarter of a step is allowed

@@ -45,7 +45,7 @@ namespace ballast {
 enum class WallPhase : unsigned char { none, active, passive, jammed };
 
 /// The time cut off at the start for a load of `frequency` [Hz]: 0.3 s, at least one period [s].
-double transient_of(double frequency);
+double transient_end(double frequency);
 
 /// The first sample later than t + h/4, where times grow; h/4 allows for the rounding of multiples
 /// of h.

@@ -132,7 +132,7 @@ std::string packed(const std::string& id, const std::string& bytes) {
 /// The page's own data, and the curves of its figures as "pictures".
 std::string page_data_json(const Page& page) {
   const std::string own = page.answers.data.empty() ? "{}" : page.answers.data;
-  if (!page.answers.with_curves) return own;
+  if (!page.answers.has_charts) return own;
   Json data = Json::parse(own);
   Json& pictures = data["pictures"] = Json::array();
   for (const Section& section : page.sections)
@@ -226,7 +226,7 @@ struct HtmlBlocks {
 /// The last elements of a page with answers: data, library and modules. Empty for other pages, and
 /// when the program was built without the library.
 std::string answers_html(const Page& page) {
-  if (!page.answers.are_given || !can_answer()) return {};
+  if (!page.answers.is_enabled || !has_chart_library()) return {};
   std::string modules;
   for (const char* name : common_modules) modules += answers_file(name);
   for (const std::string& module : page.answers.modules) modules += module;
@@ -289,7 +289,7 @@ std::string html_of(const Page& page) {
     for (const Block& block : section.blocks) html += html_of(block);
     html += "</section>\n";
   }
-  if (page.answers.are_given && !can_answer())
+  if (page.answers.is_enabled && !has_chart_library())
     html += "<p class=\"note\">" + html_of(words("answers.missing")) + "</p>\n";
   return html + "</main>\n" + answers_html(page) + "</body>\n</html>\n";
 }
@@ -316,7 +316,7 @@ std::string inline_svg(std::string_view svg, const std::string& name, const std:
   return text.replace(0, 4, "<svg role=\"img\"");
 }
 
-bool can_answer() { return !chart_library().empty(); }
+bool has_chart_library() { return !chart_library().empty(); }
 
 }  // namespace page
 }  // namespace ballast

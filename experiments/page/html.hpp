@@ -27,6 +27,6 @@ std::string escaped_html(std::string_view text);
 std::string inline_svg(std::string_view svg, const std::string& name, const std::string& title);
 
 /// Returns whether the library that draws charts (Chart.js) is built in.
-bool can_answer();
+bool has_chart_library();
 
 }  // namespace ballast::page

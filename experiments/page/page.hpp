@@ -95,9 +95,9 @@ struct Section {
 /// The input of a page's script, which makes tables sort and figures tell their values
 /// (experiments/page/answers). Only HTML has a script.
 struct Answers {
-  bool are_given = false;
-  bool with_curves = false;  ///< charts replace the figures, whose curves are in the page
-  std::string data = {};     ///< a JSON object for the page's own modules; empty: none
+  bool is_enabled = false;
+  bool has_charts = false;  ///< charts replace the figures, whose curves are in the page
+  std::string data = {};    ///< a JSON object for the page's own modules; empty: none
   std::vector<std::string> modules = {};  ///< the page's own JavaScript, run after the common one
 };
 

@@ -58,12 +58,12 @@ std::string packings_csv(const PaperData& data, const fs::path& folder) {
   for (const auto& [key, start] : starts) {
     const fs::path file = packing_file(folder, key);
     csv.add_row(std::vector<std::string>{key, start.scene, start.seed, std::to_string(start.runs),
-                                         is_there(file) ? sha256_of(file) : ""});
+                                         path_exists(file) ? sha256_of(file) : ""});
   }
   return csv.take();
 }
 
-Files files_of(PaperData& data, const ArchiveOrder& order) {
+Files files_of(PaperData& data, const ArchiveOptions& order) {
   const std::vector<RunRow>& rows = data.rows();
   Files files{{"CITATION.cff", citation_text()},
               {"LICENSE", licence_text()},
@@ -97,7 +97,7 @@ Files files_of(PaperData& data, const ArchiveOrder& order) {
 
 }  // namespace
 
-fs::path write_archive(PaperData& data, const ArchiveOrder& order) {
+fs::path write_archive(PaperData& data, const ArchiveOptions& order) {
   const std::string name = "ballast-paper";
   const fs::path folder = order.output / name, packed = order.output / (name + ".tar.gz"),
                  neighbour = packed.string() + ".tmp";

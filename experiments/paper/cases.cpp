@@ -167,7 +167,7 @@ void add_exponents(const CaseTable& what, const std::vector<Case>& cases, PaperS
       };
       const std::map<double, double> rise = exponents("rise");
       const std::string over = groups.front().label + (groups.size() == 2 ? " and " : " to ") +
-                               groups.back().label + unit_behind(what.along);
+                               groups.back().label + unit_suffix(what.along);
       if (&row == &cases.front()) reference[over] = rise;
       const page::Values words{{"case", row.name},
                                {"range", over},
@@ -195,7 +195,7 @@ void add_changes(const CaseTable& what, const std::vector<Case>& cases, PaperSec
       const SampleMean change = log_change(*same, group, "prefactor");
       if (!std::isfinite(change.mean)) continue;
       chances.push_back(change.p());
-      table.rows.push_back({row.name, group.label + unit_behind(what.along),
+      table.rows.push_back({row.name, group.label + unit_suffix(what.along),
                             words_of_change(change), words_of_p(change.p()), page::Text(),
                             words_of_change(log_change(*same, group, "aspect_prefactor")),
                             words_of_change(log_change(*same, group, "speed_in")),
@@ -282,7 +282,7 @@ void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
       cases.push_back({name, std::move(groups)});
   if (cases.empty()) return;
   if (what.has_numbers) add_numbers(cases, section);
-  section.add(stage_table(cases, unit_behind(what.along), section));
+  section.add(stage_table(cases, unit_suffix(what.along), section));
   if (!what.exponent_along.empty()) add_exponents(what, cases, section);
   if (what.has_changes) add_changes(what, cases, section);
 }

@@ -86,13 +86,13 @@ constexpr double to_mm = 1e3;
 
 /// Half width of the 95 % interval of a linear combination (`row`) of the curve's coefficients,
 /// with the pooled errors.
-double half_width(const OneCurve& all, const Eigen::VectorXd& row) {
+double half_width(const MasterCurve& all, const Eigen::VectorXd& row) {
   return student_t95(all.between.degrees_of_freedom) * all.curve.fit.error_at(row);
 }
 
 /// A function of X [m], drawn over X in mm.
 template <class Function>
-Curve along(const OneCurve& all, const Function& function, const page::Text& title, Ink ink,
+Curve along(const MasterCurve& all, const Function& function, const page::Text& title, Ink ink,
             bool dashed = false) {
   Curve curve = curve_of(function, {all.least, all.most, true}, title, ink, dashed);
   for (double& x : curve.x) x *= to_mm;
@@ -101,7 +101,7 @@ Curve along(const OneCurve& all, const Function& function, const page::Text& tit
 
 /// An area between two functions of X [m], drawn over X in mm.
 template <class Low, class High>
-Curve band(const OneCurve& all, const Low& low, const High& high) {
+Curve band(const MasterCurve& all, const Low& low, const High& high) {
   Curve area = along(all, high, "95 %", Ink::light);
   area.y_low = along(all, low, "", Ink::light).y;
   area.mark = Mark::area;
@@ -110,7 +110,7 @@ Curve band(const OneCurve& all, const Low& low, const High& high) {
 }
 
 /// Means of C along X; their bars are the errors that the fit gives them.
-Curve curve_of(const OneCurve& all, const std::vector<CurvePoint>& shown, const Series& series) {
+Curve curve_of(const MasterCurve& all, const std::vector<CurvePoint>& shown, const Series& series) {
   Points points;
   for (const CurvePoint& point : shown) {
     SampleMean mean = point.group.mean("prefactor");
@@ -121,7 +121,7 @@ Curve curve_of(const OneCurve& all, const std::vector<CurvePoint>& shown, const 
 }
 
 /// The panel of C along X. `small_loads` and `light` are points that the curve was not fitted to.
-Panel prefactor_panel(const OneCurve& all, const std::vector<CurvePoint>& small_loads,
+Panel prefactor_panel(const MasterCurve& all, const std::vector<CurvePoint>& small_loads,
                       const std::vector<CurvePoint>& light) {
   Panel panel{.x_label = page::marked("right side of Eq. 3 without *C*,  *X*  (mm)"),
               .y_label = page::marked("*C* = Δ*x*~max~ / *X*"),
@@ -154,7 +154,7 @@ Panel prefactor_panel(const OneCurve& all, const std::vector<CurvePoint>& small_
 }
 
 /// The table of C and the local exponent along X.
-page::Table along_table(const OneCurve& all) {
+page::Table along_table(const MasterCurve& all) {
   page::Table table = page::words_table("curve.along");
   std::vector<double> places{all.least};
   for (const double mm : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0})
@@ -174,7 +174,7 @@ page::Table along_table(const OneCurve& all) {
 
 page::Text percent_words(double deviation) { return page::number(100.0 * deviation, 2) + " %"; }
 
-page::Values words_for(const OneCurve& all) {
+page::Values words_for(const MasterCurve& all) {
   const double c_small = all.curve.at(all.least) / all.least,
                c_large = all.curve.at(all.most) / all.most;
   const auto [small, large] = std::ranges::minmax(all.points, {}, &CurvePoint::x);
@@ -348,9 +348,9 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
 
 /// Returns the points of `groups` that are not in the curve `all`. Reports whether all points fall
 /// on one curve, and how far the returned ones lie from the curve without them.
-std::vector<CurvePoint> points_beside(const char* name, const OneCurve& all,
+std::vector<CurvePoint> points_beside(const char* name, const MasterCurve& all,
                                       const std::vector<Groups>& groups, PaperSection& section) {
-  OneCurve more = one_curve(groups);
+  MasterCurve more = fit_master_curve(groups);
   std::vector<CurvePoint> others = std::move(more.points);
   const size_t count = others.size();
   std::erase_if(others, [&](const CurvePoint& point) {
@@ -392,11 +392,12 @@ double LogPolynomial::at(double x) const { return std::exp(fit.at(row(x))); }
 
 VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error) {
   if (error.degrees_of_freedom < 1) return {};
-  return {fit.reduced(), f_p(fit.reduced(), fit.degrees_of_freedom, error.degrees_of_freedom)};
+  return {fit.reduced_chi2(),
+          f_test_p(fit.reduced_chi2(), fit.degrees_of_freedom, error.degrees_of_freedom)};
 }
 
-OneCurve one_curve(const std::vector<Groups>& groups) {
-  OneCurve all;
+MasterCurve fit_master_curve(const std::vector<Groups>& groups) {
+  MasterCurve all;
   all.points = distinct_points(groups);
   Groups distinct;
   for (const CurvePoint& point : all.points) distinct.push_back(point.group);
@@ -439,7 +440,7 @@ void fill_curve(PaperData& data, PaperSection& section) {
   leave_out(groups, "wall_mass_over_grains", least_wall);
   std::vector<Groups> larger = groups;
   leave_out(larger, "force_over_weight", least_load);
-  const OneCurve all = one_curve(larger);
+  const MasterCurve all = fit_master_curve(larger);
   if (!all.is_known()) return;
   const auto small_loads = points_beside("curve.small_loads", all, groups, section);
   larger.push_back(data.settings(light_wall.rows));

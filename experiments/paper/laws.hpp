@@ -25,7 +25,7 @@ struct LogPolynomial {
   double at(double x) const;                  ///< Delta x_max [m]
 };
 
-struct OneCurve {
+struct MasterCurve {
   std::vector<CurvePoint> points;  ///< distinct runs; the base of all series counts once
   double least = not_known, most = not_known;  ///< X of the points [m]
   PooledError between;  ///< scatter of a sample's ln Delta x_max about its point's mean
@@ -42,7 +42,7 @@ struct OneCurve {
 };
 
 /// `groups` has a list for each series: the groups at the values of one variable of Eq. 3.
-OneCurve one_curve(const std::vector<Groups>& groups);
+MasterCurve fit_master_curve(const std::vector<Groups>& groups);
 
 /// chi^2 over the degrees of freedom of a fit whose points have the pooled error `error`.
 VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error);

@@ -208,7 +208,7 @@ VarianceRatio misfit_of(const PeakedRate& law, const Points& points, int paramet
     misses += std::pow(points.y[k] - law.at(points.x[k]), 2) / (count - parameters);
     variances += std::pow(points.error[k], 2) / count;
   }
-  return {misses / variances, f_p(misses / variances, count - parameters, points.errors_from)};
+  return {misses / variances, f_test_p(misses / variances, count - parameters, points.error_dof)};
 }
 
 page::Text words_of(const PeakedRate& fit) {
@@ -439,8 +439,8 @@ void fill_compaction(PaperData& data, PaperSection& section) {
     const auto most = std::ranges::max_element(curve.y);
     section.report("compaction.claim", {{"window", title},
                                         {"peak", page::number(curve.x[most - curve.y.begin()])},
-                                        {"differ", words_of(difference_of(all), "F")},
-                                        {"differ_fast", words_of(difference_of(fast), "F")}});
+                                        {"differ", words_of(repeated_anova(all), "F")},
+                                        {"differ_fast", words_of(repeated_anova(fast), "F")}});
   }
   section.draw("compaction", {.height = 480, .panels = {panel}},
                {{"samples", std::to_string(groups.front().samples.size())}});

@@ -192,7 +192,7 @@ double RunRow::operator[](RunMeasure measure) const {
 
 double& RunRow::operator[](std::string_view column) { return numbers[place_of(column)]; }
 
-std::string unit_behind(RunMeasure measure) {
+std::string unit_suffix(RunMeasure measure) {
   const std::string unit = all_columns[place_of(measure)].unit;
   return unit == "1" ? "" : ' ' + unit;
 }

@@ -44,7 +44,7 @@ std::string stage_of(const PlannedRun& run);
 /// SI units; NaN: not known.
 using RunMeasure = std::string_view;
 /// The unit as it is written behind a value: " Hz"; empty without a unit.
-std::string unit_behind(RunMeasure measure);
+std::string unit_suffix(RunMeasure measure);
 
 struct RunRow {
   std::string name, stage;  ///< of the campaign

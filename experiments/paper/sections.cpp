@@ -337,7 +337,7 @@ void write_paper_report(PaperData& data, const std::vector<PaperSection>& sectio
       write_whole_file(folder / "data" / (figure.plot.name + ".csv"), figure_csv(figure.plot));
   write_whole_file(folder / "data" / "runs.csv", runs_csv(data.rows()));
   page::Page page = paper_page(sections, origin_of(data));
-  page.answers = {.are_given = true, .with_curves = true};
+  page.answers = {.is_enabled = true, .has_charts = true};
   // the data are in CSV files beside, and README.md shows the SVG files themselves
   page::draw_pictures(page, folder, {.is_file_shown = true});
   write_html_file(folder / "paper.html", page);

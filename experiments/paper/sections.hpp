@@ -212,7 +212,7 @@ std::string article_of(const std::vector<PaperSection>& sections);
 ExitCode write_article(PaperData& data, const std::filesystem::path& folder, std::ostream& notes);
 
 /// The campaign as a dataset that can be cited: rows, plan, scenes, packings' checksums, a reader.
-struct ArchiveOrder {
+struct ArchiveOptions {
   std::filesystem::path plan = {};  ///< the campaign's; empty: campaign.toml
   std::filesystem::path packings;   ///< folder of the packings; those in it get checksums
   std::filesystem::path output;
@@ -220,6 +220,6 @@ struct ArchiveOrder {
 
 /// Writes the folder `<output>/ballast-paper` and packs it as `<output>/ballast-paper.tar.gz`; the
 /// same rows give the same bytes. Returns the packed file. Throws Error.
-std::filesystem::path write_archive(PaperData& data, const ArchiveOrder& order);
+std::filesystem::path write_archive(PaperData& data, const ArchiveOptions& order);
 
 }  // namespace ballast

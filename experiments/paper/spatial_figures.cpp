@@ -185,23 +185,23 @@ void fill_velocities(PaperData& data, PaperSection& section) {
     round.push_back(
         Roll{{(*row)["roll_top"], (*row)["roll_right"], (*row)["roll_bottom"], (*row)["roll_left"]},
              (*row)["circulation"]}
-            .roundness());
+            .side_ratio());
     closed += round.back() > 0.0;
   }
-  const SampleMean roundness = sample_mean(round);
+  const SampleMean side_ratio = sample_mean(round);
   page::Values words{{"wall", page::number(1e3 * wall)},
                      {"arrow", page::number(1e3 * speed)},
-                     {"round", words_of(roundness)},
+                     {"round", words_of(side_ratio)},
                      {"closed", page::number(closed)},
                      {"samples", std::to_string(round.size())}};
   section.draw("fig6", field, words);
-  if (roundness.samples > 0) {
+  if (side_ratio.samples > 0) {
     double rms = 0.0;
     const Figure drift = period_field(runs.front(), rms);
     words.emplace("drift", page::number(1e3 * rms));
     section.draw("fig6b", drift, words);
   }
-  section.claim("fig6.roll", words, PaperRange::at_least(0.0), found(roundness));
+  section.claim("fig6.roll", words, PaperRange::at_least(0.0), found(side_ratio));
 }
 
 void fill_chains(PaperData& data, PaperSection& section) {

@@ -53,7 +53,7 @@ std::vector<std::string> run_arguments(const fs::path& results, const PlannedRun
 
 long steps_in_log(const fs::path& run_folder) {
   const fs::path log = RunFolder(run_folder).steps_log();
-  if (!is_there(log)) return 0;
+  if (!path_exists(log)) return 0;
   try {
     return RowReader(log).row_count();
   } catch (const Error&) {  // the log is just being made
@@ -95,7 +95,7 @@ void write_index(const fs::path& results, const Plan& plan, const std::set<std::
   }
   std::string text = csv.take();
   // Plans may share a folder: the one table has the runs of all plans that were run there.
-  if (is_there(file)) {
+  if (path_exists(file)) {
     const std::vector<std::string> rows = split(read_whole_file(file), '\n');
     for (size_t k = 1; k < rows.size(); ++k)
       if (!rows[k].empty() && !rows[k].starts_with(plan.name + ',')) text += rows[k] + '\n';
@@ -149,7 +149,7 @@ std::vector<Task> make_tasks(const fs::path& results, std::vector<PlannedRun> ru
   std::map<std::string, int> deposits;  // several runs may share one
   for (const PlannedRun& run : runs) {
     const bool needs_packing = !run.packing.empty() && state_of(results, run) != "finished" &&
-                               !is_there(packing_file(packing_folder(results), run.packing));
+                               !path_exists(packing_file(packing_folder(results), run.packing));
     if (needs_packing && deposits.emplace(run.packing, tasks.size()).second)
       tasks.push_back({.title = "packing of " + run.name,
                        .key = run.packing,
@@ -184,8 +184,8 @@ std::vector<std::string> plan_commands(const Plan& plan, const PlanOptions& opti
   std::vector<std::string> lines;
   for (Task& task : make_tasks(results, runs)) {
     if (task.state == TaskState::finished) continue;
-    task.arguments.insert(task.arguments.begin(), own_program().string());
-    lines.push_back(shell_line(task.arguments) + " >>" + shell_word(task.log.string()) + " 2>&1");
+    task.arguments.insert(task.arguments.begin(), executable_path().string());
+    lines.push_back(shell_line(task.arguments) + " >>" + shell_quoted(task.log.string()) + " 2>&1");
   }
   make_folders(results);
   return lines;
@@ -200,7 +200,7 @@ class Engine {
   Engine(const Plan& plan, const PlanOptions& options, std::vector<Task> tasks)
       : plan_(plan),
         options_(options),
-        program_(own_program()),
+        program_(executable_path()),
         tasks_(std::move(tasks)),
         finished_before_(count(tasks_, true, TaskState::finished)),
         work_before_(work_done(tasks_)),

@@ -129,7 +129,7 @@ void Recorder::finish(const std::string& scene_text, const std::string& manifest
 }
 
 std::vector<StepRecord> read_steps(const fs::path& folder) {
-  if (is_there(record_file(folder))) return read_record_steps(record_file(folder));
+  if (path_exists(record_file(folder))) return read_record_steps(record_file(folder));
   RowReader rows(steps_log(folder));
   if (rows.header().row_size != step_columns().size())
     throw Error(steps_log(folder).string() + ": has other columns than this program reads");
@@ -142,7 +142,7 @@ std::vector<StepRecord> read_steps(const fs::path& folder) {
 }
 
 std::vector<MotionState> read_poses(const fs::path& folder) {
-  if (is_there(record_file(folder))) return read_record_poses(record_file(folder));
+  if (path_exists(record_file(folder))) return read_record_poses(record_file(folder));
   RowReader rows(poses_log(folder));
   std::vector<MotionState> frames;
   for (auto row = rows.next(); !row.empty(); row = rows.next())
@@ -151,7 +151,8 @@ std::vector<MotionState> read_poses(const fs::path& folder) {
 }
 
 void require_same_bodies(const fs::path& folder, const MechanicalSystem& system) {
-  if (is_there(steps_log(folder))) open_log(steps_log(folder), header_of(steps_layout(), system));
+  if (path_exists(steps_log(folder)))
+    open_log(steps_log(folder), header_of(steps_layout(), system));
 }
 
 }  // namespace ballast

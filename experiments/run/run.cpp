@@ -27,12 +27,12 @@ ResolvedScene resolve_run(const std::string& scene, const std::vector<std::strin
   return resolved;
 }
 
-bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manifest,
+bool prepare_run(const Scene& scene, const PackingOptions& order, Manifest& manifest,
                  PreparedRun& run) {
   if (scene.grains) {
     const Rain rain = make_rain(scene);
     Packing packing;
-    if (!take_packing(scene, rain, order, packing)) return false;
+    if (!load_or_deposit(scene, rain, order, packing)) return false;
     run.system = drive_system(scene, rain, packing, run.state);
     run.memory = std::move(packing.memory);
     run.control_volume = box_control_volume(scene, packing.deposit.top);
@@ -98,7 +98,7 @@ class Run {
       if (!scene_.grains)
         throw Error(options_.scene + ": --deposit-only: has no [grains] to deposit");
       Packing packing;
-      if (!take_packing(scene_, make_rain(scene_), packing_order(), packing))
+      if (!load_or_deposit(scene_, make_rain(scene_), packing_order(), packing))
         end.code = why_to_stop();
     } else if (!open_folder()) {
       end.was_finished = true;
@@ -143,21 +143,21 @@ class Run {
                 ": holds a run of other settings: give the same scene and --set, or --overwrite");
   }
 
-  PackingOrder packing_order() const {
-    PackingOrder order;
+  PackingOptions packing_order() const {
+    PackingOptions order;
     // Relative to the folder's name: where it is a link, the kernel's ".." is another folder.
     order.cache = options_.packing_cache.empty()
                       ? (folder_.path() / ".." / "packings").lexically_normal()
                       : options_.packing_cache;
     order.style = options_.style;
-    order.goes_on = [this] { return why_to_stop() == ExitCode::ok; };
+    order.keep_going = [this] { return why_to_stop() == ExitCode::ok; };
     return order;
   }
 
   /// Takes the state from scene, packing or checkpoint. False: stopped while depositing.
   bool prepare() {
     if (!prepare_run(scene_, packing_order(), manifest_, run_)) return false;
-    if (is_resumed_ && is_there(folder_.checkpoint())) {
+    if (is_resumed_ && path_exists(folder_.checkpoint())) {
       Checkpoint found = folder_.read_state(folder_.checkpoint());
       run_.memory = std::move(found.memory);
       run_.state = std::move(found.state);

@@ -66,7 +66,7 @@ struct PreparedRun {
 /// Prepares the start of a run: from the scene alone, or driven from its packing, which is taken as
 /// `order` says. Facts about the box that a reader needs are noted in the manifest. Returns false
 /// when stopped while depositing. Throws Error.
-bool prepare_run(const Scene& scene, const PackingOrder& order, Manifest& manifest,
+bool prepare_run(const Scene& scene, const PackingOptions& order, Manifest& manifest,
                  PreparedRun& run);
 
 }  // namespace ballast

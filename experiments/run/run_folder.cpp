@@ -228,7 +228,7 @@ void clear(const fs::path& run) {
 
 bool RunFolder::is_finished(const std::string& key) const {
   for (const fs::path& file : {manifest(), path_ / "steps.csv", path_ / "record.h5"})
-    if (!is_there(file)) return false;
+    if (!path_exists(file)) return false;
   const Manifest found = Manifest::read(manifest());
   return found.key() == key && found.summary_number(steps_left_entry) == 0.0;
 }
@@ -241,7 +241,8 @@ void RunFolder::begin(const std::string& scene_text, const Manifest& manifest,
       std::any_of(fs::directory_iterator(path_), fs::directory_iterator(), [](const auto& entry) {
         return std::ranges::find(beginnings, entry.path().filename()) == std::end(beginnings);
       });
-  const bool is_new = !has_others && (!is_there(this->manifest()) || is_manifest(this->manifest()));
+  const bool is_new =
+      !has_others && (!path_exists(this->manifest()) || is_manifest(this->manifest()));
   if (!is_new && !(has_run() && is_manifest(this->manifest())))
     throw Error(path_.string() +
                 ": holds files that are no run's: give a folder that is new or empty");
@@ -277,7 +278,7 @@ MechanicalSystem system_of_run(const fs::path& path, MotionState& state) {
   if (!folder.has_run()) throw Error(path.string() + ": no run here: scene.toml is missing");
   const Scene scene = read_scene(folder.scene());
   MechanicalSystem system = scene.grains ? MechanicalSystem{} : make_system(scene, state);
-  if (is_there(folder.checkpoint()))
+  if (path_exists(folder.checkpoint()))
     state = folder.read_state(folder.checkpoint()).state;
   else if (scene.grains)
     throw Error(folder.checkpoint().string() + ": missing: the run has no state yet");
@@ -294,10 +295,10 @@ MechanicalSystem system_of_run(const fs::path& path, MotionState& state) {
 MechanicalSystem recorded_system(const fs::path& path, MotionState& state) {
   const RunFolder folder(path);
   const fs::path record = path / "record.h5";
-  if (!folder.has_run() || !is_there(record)) return system_of_run(path, state);
+  if (!folder.has_run() || !path_exists(record)) return system_of_run(path, state);
   MechanicalSystem system = read_record_system(record);
   system.friction = scene_friction(folder.scene());
-  if (is_there(folder.checkpoint())) state = folder.read_state(folder.checkpoint()).state;
+  if (path_exists(folder.checkpoint())) state = folder.read_state(folder.checkpoint()).state;
   return system;
 }
 

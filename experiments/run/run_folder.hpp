@@ -88,7 +88,7 @@ class RunFolder {
   /// The existing files in states(), in the order of time.
   std::vector<std::filesystem::path> state_files() const;
   std::filesystem::path steps_log() const { return path_ / "log" / "steps.bin"; }
-  bool has_run() const { return is_there(scene()); }
+  bool has_run() const { return path_exists(scene()); }
   /// Returns whether the folder holds the complete run of this key: all steps and closed records.
   bool is_finished(const std::string& key) const;
 

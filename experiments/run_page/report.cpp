@@ -262,13 +262,13 @@ std::string reproduce_commands(const RunData& data) {
   const std::filesystem::path folder =
       std::filesystem::absolute(data.folder / "scene.toml").lexically_normal().parent_path();
   return text +
-         shell_line({own_program().string(), "run", (folder / "scene.toml").string(), "--output",
-                     folder.string() + "-again"}) +
+         shell_line({executable_path().string(), "run", (folder / "scene.toml").string(),
+                     "--output", folder.string() + "-again"}) +
          '\n';
 }
 
 std::string next_commands(bool has_grains) {
-  const std::string program = shell_word(own_program().string()) + ' ';
+  const std::string program = shell_quoted(executable_path().string()) + ' ';
   std::string text;
   if (has_grains)
     text += "# another frequency, other grains; every key of a scene: docs/manual/scenes.md\n" +
@@ -295,8 +295,9 @@ void write_report(const std::filesystem::path& folder) {
   figures.add(paper_figures(data, summary));
   diagnostics.add(diagnostic_figures(data, summary));
   // The most important notices come first.
-  const std::vector<std::string> words = trust_words(summary);
-  if (!is_clean(summary)) data.notices.insert(data.notices.begin(), words.begin(), words.end());
+  const std::vector<std::string> words = run_findings(summary);
+  if (!has_no_findings(summary))
+    data.notices.insert(data.notices.begin(), words.begin(), words.end());
   if (const long all = data.scene ? data.scene->step_count() : 0; summary.steps < all)
     data.notices.insert(
         data.notices.begin(),
@@ -313,7 +314,7 @@ void write_report(const std::filesystem::path& folder) {
   page.lede = {extent + ".", made_by(data)};
   page.notices.heading = "To be known before reading";
   page.notices.items.assign(data.notices.begin(), data.notices.end());
-  page.answers = {.are_given = true, .with_curves = true};
+  page.answers = {.is_enabled = true, .has_charts = true};
   page.add(std::move(motion));
   page.add({"results", "The run in numbers", {results_table(summary)}});
   page.add(std::move(figures));
@@ -332,7 +333,7 @@ void write_report(const std::filesystem::path& folder) {
             {provenance_table(data),
              page::Listing{data.manifest_text, "The whole manifest (manifest.json)"}}});
   page::draw_pictures(page, folder,
-                      {.command = shell_line({own_program().string(), "report",
+                      {.command = shell_line({executable_path().string(), "report",
                                               std::filesystem::absolute(folder).string()})});
   page.add({"reproduce", "How to make it again", {page::Listing{reproduce_commands(data)}}});
   page.add({"next", "What next", {page::Listing{next_commands(has_packing)}}});

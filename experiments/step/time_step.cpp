@@ -19,7 +19,7 @@ double reach_of(const RigidBody& body, double radius, const MotionState& state, 
                 double g) {
   if (body.imposed) {
     const Pose next = body.imposed->motion.pose_at(state.time + 1.5 * h, body.imposed->start);
-    const Travel travel = step_bound(state.pose[b], next);
+    const MotionBound travel = step_bound(state.pose[b], next);
     return travel.shift + travel.turn * radius;
   }
   if (body.shape.fixed) return 0.0;

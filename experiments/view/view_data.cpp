@@ -186,7 +186,7 @@ ViewErrors errors_of(const CapturedProblem& captured, const std::string& backend
 /// The bodies of the run in `folder`, at the frame nearest to a problem's time; nothing where the
 /// problem is not from a run there.
 std::optional<ViewData> view_in_run(const fs::path& folder, const CapturedProblem& captured) {
-  if (!is_there(folder / "record.h5")) return std::nullopt;
+  if (!path_exists(folder / "record.h5")) return std::nullopt;
   ViewData view;
   MotionState state;
   view.system = recorded_system(folder, state);
@@ -210,15 +210,15 @@ size_t nearest_frame(const std::vector<MotionState>& frames, double time) {
 
 std::optional<ViewData> view_of_run(const RunData& run) {
   const fs::path record = run.folder / "record.h5";
-  if (!is_there(record) && !is_there(run.folder / "log" / "poses.bin")) return std::nullopt;
+  if (!path_exists(record) && !path_exists(run.folder / "log" / "poses.bin")) return std::nullopt;
   ViewData view;
   view.frames = read_poses(run.folder);
   if (view.frames.empty()) return std::nullopt;
   MotionState state;
   view.system = recorded_system(run.folder, state);
   if (view.frames.front().pose.size() != view.system.bodies.size()) return std::nullopt;
-  view.has_forces_later = !is_there(record) && is_there(run.folder / "log" / "forces.bin");
-  if (is_there(record)) {
+  view.has_forces_later = !path_exists(record) && path_exists(run.folder / "log" / "forces.bin");
+  if (path_exists(record)) {
     const auto forces = std::make_shared<RecordForces>(record);
     if (forces->frame_count() > 0)
       view.contacts = [forces](size_t frame) { return forces->of_frame(frame); };

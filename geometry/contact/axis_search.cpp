@@ -163,7 +163,7 @@ void AxisSearch::collect_edges(const ShapePair& pair, int own) {
   Side& side = side_[own];
   const size_t stride = shape.faces().padded();
   // 1e-8: the normal of nearly parallel edges is known to rounding / parallel_sine only.
-  const double least = std::min(best_, 0.0) - 1e-8 * pair.size() - shape.bounds().unevenness;
+  const double least = std::min(best_, 0.0) - 1e-8 * pair.size() - shape.bounds().planarity_error;
   side.edges.clear();
   for (int e = 0; e < shape.edge_count(); ++e) {
     const CollisionShape::EdgeEnds edge = shape.edge_ends(e);

@@ -6,7 +6,7 @@
 
 namespace ballast {
 
-Travel step_bound(const Pose& from, const Pose& to) {
+MotionBound step_bound(const Pose& from, const Pose& to) {
   // Unit quaternions p and q of rotations that differ by phi have |p - q| = 2 sin(phi/4), where q
   // and -q are one rotation. A point at distance R moves along the chord 2 R sin(phi/2), which is
   // at most 2 R |p - q|.
@@ -52,7 +52,7 @@ bool BroadPhase::still_valid(std::span<const Pose> poses, std::span<const double
   for (size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].shape) continue;
     // A list holds while each body, with its reach, is within the box that it was listed with.
-    const Travel moved = step_bound(listed_pose_[i], poses[i]);
+    const MotionBound moved = step_bound(listed_pose_[i], poses[i]);
     if (!(moved.shift + radius_[i] * moved.turn + reach[i] <= allowance_[i])) return false;
   }
   return true;

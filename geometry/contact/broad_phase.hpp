@@ -17,14 +17,14 @@ Bounds bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec
 
 /// A bound on a body's motion: a point at distance r from its origin moves by at most shift + r
 /// turn. Summed over steps, its increase since any earlier time bounds the motion since then.
-struct Travel {
+struct MotionBound {
   double shift = 0.0;  ///< [m]
   double turn = 0.0;   ///< chord of the unit circle [1]
 };
 
 /// A bound on a step's motion. The chord of a rotation by phi is 2 sin(phi/2) <= 4 sin(phi/4), and
 /// 2 sin(phi/4) is the distance of the unit quaternions.
-Travel step_bound(const Pose& from, const Pose& to);
+MotionBound step_bound(const Pose& from, const Pose& to);
 
 /// Two polyhedra that may touch, a < b, and the memory of their last detection.
 struct CandidatePair {

@@ -13,8 +13,8 @@ constexpr double far_away = 1e100;  // [m]; finite, so that sums of padding stay
 
 int rounded_up(int count) { return (count + lanes - 1) / lanes * lanes; }
 
-std::uint16_t in_two_bytes(int number) { return static_cast<std::uint16_t>(number); }
-std::vector<std::uint16_t> in_two_bytes(const std::vector<int>& numbers) {
+std::uint16_t to_uint16(int number) { return static_cast<std::uint16_t>(number); }
+std::vector<std::uint16_t> to_uint16(const std::vector<int>& numbers) {
   return {numbers.begin(), numbers.end()};
 }
 
@@ -90,12 +90,12 @@ std::vector<int> CollisionShape::build_faces(const Polyhedron& polyhedron) {
     first_corner.push_back(static_cast<int>(corners.size()));
     for (const int v : polyhedron.face(f)) {
       corners.push_back(v);
-      bounds_.unevenness =
-          std::max(bounds_.unevenness, offset - vertex_height(normal, polyhedron.vertex(v)));
+      bounds_.planarity_error =
+          std::max(bounds_.planarity_error, offset - vertex_height(normal, polyhedron.vertex(v)));
     }
   }
   first_corner.push_back(static_cast<int>(corners.size()));
-  first_corner_ = in_two_bytes(first_corner);
+  first_corner_ = to_uint16(first_corner);
   measure_isolation();
   return corners;
 }
@@ -127,15 +127,15 @@ void CollisionShape::build_edges(const Polyhedron& polyhedron, std::span<const i
     corner_edge[corner] = edge_count();
   };
   for (const Polyhedron::Edge& edge : polyhedron.edges()) {
-    const EdgeEnds ends{in_two_bytes(edge.tail), in_two_bytes(edge.head), in_two_bytes(edge.left),
-                        in_two_bytes(edge.right)};
+    const EdgeEnds ends{to_uint16(edge.tail), to_uint16(edge.head), to_uint16(edge.left),
+                        to_uint16(edge.right)};
     enter(ends.left, ends.tail);
     enter(ends.right, ends.head);
     edges.insert(edges.end(), {ends.tail, ends.head, ends.left, ends.right});
     drop_.push_back(rounded_down(drop_below(ends, polyhedron)));
   }
-  edges_ = in_two_bytes(edges);
-  corner_edge_ = in_two_bytes(corner_edge);
+  edges_ = to_uint16(edges);
+  corner_edge_ = to_uint16(corner_edge);
 }
 
 /// Edge::drop: the common normal with an edge u is n = p left_normal + q right_normal with p, q
@@ -161,8 +161,8 @@ void CollisionShape::build_vertex_faces(const Polyhedron& polyhedron) {
     std::sort(all.begin() + begins.back(), all.end());
     begins.push_back(static_cast<int>(all.size()));
   }
-  vertex_begin_ = in_two_bytes(begins);
-  vertex_faces_ = in_two_bytes(all);
+  vertex_begin_ = to_uint16(begins);
+  vertex_faces_ = to_uint16(all);
 }
 
 /// Puts the ball around the origin (a grain's centre of mass) or the vertices' mean, whichever ball

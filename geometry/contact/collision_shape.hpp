@@ -32,7 +32,7 @@ class AffineRows {
   /// values[i] = xyz(i).d + w(i) for all padded() rows.
   void evaluate(const Vec3& d, double* values) const;
   /// Prefetches the rows, which lie in main memory when there are thousands of shapes.
-  void fetch() const {
+  void prefetch() const {
     constexpr size_t line = 8, most = 32 * line;  // numbers; a usual grain's rows take 16 lines
     for (size_t k = 0; k < std::min(table_.size(), most); k += line)
       __builtin_prefetch(table_.data() + k);
@@ -53,9 +53,9 @@ inline double vertex_height(const Vec3& d, const Vec3& vertex) {
 struct alignas(64) BodyBounds {
   Vec3 ball_centre = Vec3::Zero();  ///< of a ball inside the solid
   double ball_radius = 0.0;
-  double circumradius = 0.0;  ///< largest distance of a vertex from the frame's origin
-  double unevenness = 0.0;    ///< largest distance of a corner from its face's plane [m]: by
-                              ///< rounding, or within the polyhedron's tolerance
+  double circumradius = 0.0;     ///< largest distance of a vertex from the frame's origin
+  double planarity_error = 0.0;  ///< largest distance of a corner from its face's plane [m]: by
+                                 ///< rounding, or within the polyhedron's tolerance
 };
 
 /// Built once per shape, in the frame of the polyhedron [m]. Coplanar neighbouring faces are best

@@ -37,7 +37,7 @@ void DetectedBodies::take(std::span<const Pose> new_poses, std::span<const doubl
     rotations[i] = poses[i].rotation.toRotationMatrix();
     // The motion is summed up step by step: the difference of the sums at two times bounds the
     // motion between them.
-    const Travel step = step_bound(previous_[i], poses[i]);
+    const MotionBound step = step_bound(previous_[i], poses[i]);
     travel[i].shift += step.shift;
     travel[i].turn += step.turn;
     previous_[i] = poses[i];
@@ -59,7 +59,7 @@ void DetectionPart::detect(BroadPhase& broad_phase, std::vector<ContactPoint>& c
   for (int a = begin_; a < end_; ++a) {
     if (!bodies_.shape(a)) detect_plane(a, contacts);
     for (; next < chosen_.size() && chosen_[next] < broad_phase.first(a + 1); ++next) {
-      fetch(broad_phase, next + 4);
+      prefetch(broad_phase, next + 4);
       detect_pair(broad_phase, broad_phase.pairs()[chosen_[next]], contacts);
     }
   }
@@ -67,7 +67,7 @@ void DetectionPart::detect(BroadPhase& broad_phase, std::vector<ContactPoint>& c
 
 /// How far the bodies of a pair can have come closer since the first call, by their travel [m].
 double DetectionPart::bound_use(const CandidatePair& pair) const {
-  const Travel &a = bodies_.travel[pair.a], &b = bodies_.travel[pair.b];
+  const MotionBound &a = bodies_.travel[pair.a], &b = bodies_.travel[pair.b];
   return (a.shift + b.shift) + (pair.arm_a * a.turn + pair.arm_b * b.turn);
 }
 
@@ -129,7 +129,7 @@ void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts)
       near_.push_back(b);
   constexpr size_t ahead = 6;  // bodies
   for (size_t k = 0; k < near_.size(); ++k) {
-    if (k + ahead < near_.size()) bodies_.shape(near_[k + ahead])->vertices().fetch();
+    if (k + ahead < near_.size()) bodies_.shape(near_[k + ahead])->vertices().prefetch();
     const int b = near_[k];
     const double alert = reach[plane] + reach[b], height = height_of(b);
     const AffineRows& vertices = bodies_.shape(b)->vertices();
@@ -174,14 +174,14 @@ void DetectionPart::detect_pair(BroadPhase& broad_phase, CandidatePair& candidat
     std::span<const ManifoldPoint> points;
     switch (
         broad_phase.memory(candidate.touching).look(pair, turn, limits, manifold_, axis, points)) {
-      case TouchingPair::Look::touching:
+      case TouchingPair::PairOutcome::touching:
         ++counters_.proved_axes;
         if (passes(candidate, limits, axis, contacts)) return;
         return append(candidate, pair, axis, points, contacts);
-      case TouchingPair::Look::apart:
+      case TouchingPair::PairOutcome::apart:
         ++counters_.cached_separations;
         return bound_separated(candidate, between.norm(), axis.separation);
-      case TouchingPair::Look::undecided:
+      case TouchingPair::PairOutcome::undecided:
         break;
     }
   }
@@ -270,7 +270,7 @@ void DetectionPart::append(const CandidatePair& candidate, const PairFrame& fram
 
 /// Prefetches the record of a pair that is tested a few pairs later: the list of pairs is read in
 /// order, its records nearly so.
-void DetectionPart::fetch(BroadPhase& broad_phase, size_t next) const {
+void DetectionPart::prefetch(BroadPhase& broad_phase, size_t next) const {
   if (next >= chosen_.size()) return;
   const int place = broad_phase.pairs()[chosen_[next]].touching;
   if (place < 0) return;

@@ -34,11 +34,11 @@ struct DetectedBodies {
   std::vector<int> table_of;           ///< of each body; -1 for planes
   std::vector<BodyBounds> bounds;      ///< of all bodies, in one place; zero for planes
 
-  std::span<const Pose> poses;    ///< of this call
-  std::span<const Pose> ahead;    ///< at the next call if nothing is met; empty: unknown
-  std::vector<Mat3> rotations;    ///< R_WB at these poses
-  std::span<const double> reach;  ///< of this call [m]
-  std::vector<Travel> travel;     ///< since the first call
+  std::span<const Pose> poses;      ///< of this call
+  std::span<const Pose> ahead;      ///< at the next call if nothing is met; empty: unknown
+  std::vector<Mat3> rotations;      ///< R_WB at these poses
+  std::span<const double> reach;    ///< of this call [m]
+  std::vector<MotionBound> travel;  ///< since the first call
 
  private:
   std::vector<Pose> previous_;  // poses of the last call
@@ -63,7 +63,7 @@ class DetectionPart {
 
  private:
   void choose_pairs(const BroadPhase& broad_phase);
-  void fetch(BroadPhase& broad_phase, size_t next) const;
+  void prefetch(BroadPhase& broad_phase, size_t next) const;
   void detect_plane(int plane, std::vector<ContactPoint>& contacts);
   void detect_pair(BroadPhase& broad_phase, CandidatePair& pair,
                    std::vector<ContactPoint>& contacts);

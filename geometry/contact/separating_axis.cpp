@@ -167,7 +167,7 @@ bool is_proved_best(const PairFrame& pair, double face_isolation, const Separati
   constexpr double isolation = 1e-8;  // [rad]
   const double size = pair.size();
   const double margin =
-      proof_margin(pair) + pair.bounds[0]->unevenness + pair.bounds[1]->unevenness;
+      proof_margin(pair) + pair.bounds[0]->planarity_error + pair.bounds[1]->planarity_error;
   const double s0 = axis.separation, r = axis.inside;
   if (!(axis.clearance > 4.0 * size * isolation)) return false;
   if (face_isolation < 2.0 * isolation) return false;

@@ -16,18 +16,18 @@ namespace ballast {
 
 class TouchingPair {
  public:
-  /// Records a pair's best axis. `turn`: the sum of both bodies' Travel::turn. `heights`: scratch.
-  /// Faces with too many corners are not recorded.
+  /// Records a pair's best axis. `turn`: the sum of both bodies' MotionBound::turn. `heights`:
+  /// scratch. Faces with too many corners are not recorded.
   void record(const ShapePair& pair, const SeparatingAxis& axis, double turn, Heights& heights);
 
-  enum class Look { undecided, apart, touching };
+  enum class PairOutcome { undecided, apart, touching };
   /// Tests the pair in its present pose.
   /// apart: the axis separates by more than limits.alert; only the separation of `axis` is set.
   /// touching: the axis is proved to be the best; its clearance is a lower bound. `points` are the
   /// pair's points, valid until the manifold is used again.
-  Look look(const PairFrame& pair, double turn, const ManifoldLimits& limits,
-            ContactManifold& manifold, SeparatingAxis& axis,
-            std::span<const ManifoldPoint>& points) const;
+  PairOutcome look(const PairFrame& pair, double turn, const ManifoldLimits& limits,
+                   ContactManifold& manifold, SeparatingAxis& axis,
+                   std::span<const ManifoldPoint>& points) const;
 
  private:
   static constexpr size_t most = 4;  ///< faces with more corners are left to the shapes' tables
@@ -49,9 +49,9 @@ class TouchingPair {
     /// For each corner: by how much in cosine the incident face opposed the reference face more
     /// than any other face at that corner did.
     std::array<double, most> lead;
-    double turn;  ///< sum of both bodies' Travel::turn when recorded. Heights have changed since
-                  ///< by no more than its increase times the other body's diameter, cosines by
-                  ///< no more than its increase.
+    double turn;  ///< sum of both bodies' MotionBound::turn when recorded. Heights have changed
+                  ///< since by no more than its increase times the other body's diameter, cosines
+                  ///< by no more than its increase.
   };
   /// A face beside an edge.
   struct Corners {
@@ -72,12 +72,12 @@ class TouchingPair {
 
   void record_edges(const ShapePair& pair, const SeparatingAxis& axis);
   void record_faces(const ShapePair& pair, int support, double turn, Heights& heights);
-  Look look_at(const Faces& faces, const PairFrame& pair, double turn, const ManifoldLimits& limits,
-               ContactManifold& manifold, SeparatingAxis& axis,
-               std::span<const ManifoldPoint>& points) const;
-  Look look_at(const Edges& edges, const PairFrame& pair, const ManifoldLimits& limits,
-               ContactManifold& manifold, SeparatingAxis& axis,
-               std::span<const ManifoldPoint>& points) const;
+  PairOutcome look_at(const Faces& faces, const PairFrame& pair, double turn,
+                      const ManifoldLimits& limits, ContactManifold& manifold, SeparatingAxis& axis,
+                      std::span<const ManifoldPoint>& points) const;
+  PairOutcome look_at(const Edges& edges, const PairFrame& pair, const ManifoldLimits& limits,
+                      ContactManifold& manifold, SeparatingAxis& axis,
+                      std::span<const ManifoldPoint>& points) const;
 
   AxisFeature feature_;
   std::variant<std::monostate, Faces, Edges> contact_;

@@ -188,7 +188,7 @@ struct RowSums {
 
 /// Returns whether the contact has three rows and rigid bodies of diagonal mass. False for the last
 /// one: four entries read from its last column of three would reach beyond H.
-bool is_usual(const FrictionProblem& problem, const std::vector<MassRoot>& roots, int c) {
+bool is_vectorisable(const FrictionProblem& problem, const std::vector<MassRoot>& roots, int c) {
   const DynamicsForm& dynamics = problem.dynamics;
   const auto is_grain = [&](int body) {
     return body < 0 || (roots[body].diagonal && roots[body].dofs == MassRoot::max_dofs);
@@ -255,7 +255,7 @@ double largest_eigenvalue(const Eigen::Matrix3d& w) {
 void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
                                              const std::vector<int>& row_begin, const Impulses& r,
                                              bool masses_are_known) {
-  if (!masses_are_known && !masses_.are_of(dynamics)) masses_.keep(dynamics);
+  if (!masses_are_known && !masses_.has_masses_of(dynamics)) masses_.keep(dynamics);
   const int bodies = dynamics.body_count();
   hr_.resize(dynamics.dof_count());
   v_.resize(hr_.size());
@@ -277,7 +277,7 @@ void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
 void ContactJudge::look_at(const FrictionProblem& problem, int c, int k, JudgeBlock& block) {
   const DynamicsForm& dynamics = problem.dynamics;
   const std::vector<MassRoot>& roots = masses_.roots();
-  if (problem.has_dynamics && is_usual(problem, roots, c))
+  if (problem.has_dynamics && is_vectorisable(problem, roots, c))
     return look_at_usual(problem, roots.data(), v_.data(), c, block, k);
   if (problem.has_dynamics) {
     body_to_contact_velocity(dynamics, problem.row_begin, dynamics.v_free, c, c + 1, q_);

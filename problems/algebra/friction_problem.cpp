@@ -443,7 +443,7 @@ void FrictionProblem::validate(KnownMasses* valid, WorkerTeam* team) const {
       if (is_any_too_large(dynamics.h.data() + begin, end - begin)) is_h_bad = true;
     };
     run_ranges(team, static_cast<int>(dynamics.h.size()), /*together=*/8192, look,
-               [&] { are_valid = valid && valid->are_of(dynamics); });
+               [&] { are_valid = valid && valid->has_masses_of(dynamics); });
     if (!are_valid) validate_masses(dynamics);
     if (!are_valid && valid) valid->keep(dynamics);
     validate_dynamics(*this, is_h_bad);
@@ -465,7 +465,7 @@ FrictionProblem local_problem(SparseRows&& w, Eigen::VectorXd q, std::vector<dou
   return problem;
 }
 
-bool KnownMasses::are_of(const DynamicsForm& dynamics) const {
+bool KnownMasses::has_masses_of(const DynamicsForm& dynamics) const {
   if (roots_.empty() || dof_begin_ != dynamics.dof_begin || mass_begin_ != dynamics.mass_begin ||
       dynamics.mass.size() != static_cast<std::size_t>(mass_begin_.back()))
     return false;

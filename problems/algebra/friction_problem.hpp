@@ -112,7 +112,7 @@ struct FrictionProblem {
 /// bit by bit: in a run every step has the same masses.
 class KnownMasses {
  public:
-  bool are_of(const DynamicsForm& dynamics) const;
+  bool has_masses_of(const DynamicsForm& dynamics) const;
   /// Throws InvalidProblem for a block that is not positive definite, and then keeps nothing.
   void keep(const DynamicsForm& dynamics);
   const std::vector<MassRoot>& roots() const { return roots_; }

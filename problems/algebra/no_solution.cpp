@@ -28,8 +28,8 @@ struct Prover {
   int normal(int c) const { return problem.row_begin[c]; }
 
   /// The proof by these `weights` >= 0 of the contacts.
-  NoSolution proof(const Eigen::VectorXd& weights) const {
-    NoSolution proof;
+  NoSolutionProof proof(const Eigen::VectorXd& weights) const {
+    NoSolutionProof proof;
     const double sum = weights.sum();
     if (!(sum > 0.0) || !std::isfinite(sum)) return proof;
     Eigen::VectorXd y = Eigen::VectorXd::Zero(problem.row_count());
@@ -89,8 +89,8 @@ void spread_over_islands(const FrictionProblem& problem, std::vector<double>& va
 
 }  // namespace
 
-NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps,
-                                double max_seconds) {
+NoSolutionProof prove_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps,
+                                  double max_seconds) {
   const Stopwatch watch;
   if (watch.has_passed(max_seconds)) return {};
   const int contacts = problem.contact_count();
@@ -110,9 +110,9 @@ NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& 
         prover.natural[c] = std::max(prover.natural[c], momentum_of(problem.dynamics, body));
   }
   spread_over_islands(problem, prover.natural);
-  NoSolution best;
+  NoSolutionProof best;
   const auto consider = [&](const Eigen::VectorXd& y) {
-    const NoSolution proof = prover.proof(y);
+    const NoSolutionProof proof = prover.proof(y);
     if (proof.least_growth > best.least_growth) best = proof;
   };
   // Single contacts that no normal impulse moves.
@@ -139,7 +139,7 @@ NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& 
   return best;
 }
 
-std::string NoSolution::words() const {
+std::string NoSolutionProof::words() const {
   if (!proved()) return "";
   const std::string who = contacts == 1
                               ? printed("contact %d sinks in at %.3g m/s", first_contact, approach)

@@ -16,7 +16,7 @@
 
 namespace ballast {
 
-struct NoSolution {
+struct NoSolutionProof {
   /// Lower bound on |r| = sqrt(sum r_i^2) of any solution [N s]; infinity: there is none. 0:
   /// nothing was proved.
   double least_impulse = 0.0;
@@ -42,7 +42,7 @@ struct NoSolution {
 /// Gauss-Seidel sweeps, fewer where W has more than 600,000 entries or max_seconds are over. Where
 /// only W is known, W^T y must be 0 to rounding. Returns the best proof found. Builds W, unless
 /// max_seconds is 0. Throws InvalidProblem.
-NoSolution look_for_no_solution(const FrictionProblem& problem, const Impulses& r, int sweeps = 500,
-                                double max_seconds = 1e30);
+NoSolutionProof prove_no_solution(const FrictionProblem& problem, const Impulses& r,
+                                  int sweeps = 500, double max_seconds = 1e30);
 
 }  // namespace ballast

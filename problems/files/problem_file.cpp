@@ -62,7 +62,7 @@ FrictionProblem read_problem(const fs::path& file) {
 std::vector<FoundProblem> find_problems(const std::string& word) {
   std::vector<FoundProblem> problems;
   const bool is_pattern = word.find_first_of("*?[") != std::string::npos;
-  if (is_there(word) || (!is_pattern && is_problem_file(word))) {
+  if (path_exists(word) || (!is_pattern && is_problem_file(word))) {
     add_problems(word, problems);
     return problems;
   }

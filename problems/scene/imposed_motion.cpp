@@ -23,7 +23,7 @@ auto slope(const Row& after) {
 }  // namespace
 
 template <class Value>
-Value Course<Value>::at(double t) const {
+Value TimeFunction<Value>::at(double t) const {
   const double omega = 2.0 * std::numbers::pi * frequency;
   Value value = t * rate + (1.0 - std::cos(omega * t)) * amplitude;
   if (table.empty()) return value;
@@ -35,7 +35,7 @@ Value Course<Value>::at(double t) const {
 }
 
 template <class Value>
-Value Course<Value>::rate_at(double t) const {
+Value TimeFunction<Value>::rate_at(double t) const {
   const double omega = 2.0 * std::numbers::pi * frequency;
   Value value = rate + amplitude * (omega * std::sin(omega * t));
   const auto after = row_after(table, t);
@@ -43,8 +43,8 @@ Value Course<Value>::rate_at(double t) const {
   return value;
 }
 
-template struct Course<double>;
-template struct Course<Vec3>;
+template struct TimeFunction<double>;
+template struct TimeFunction<Vec3>;
 
 Pose ImposedMotion::pose_at(double t, const Pose& start) const {
   const Quat turned = rotation_by(turn.at(t) * axis);

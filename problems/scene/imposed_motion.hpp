@@ -12,7 +12,7 @@ namespace ballast {
 /// are sorted by time [s], and constant before the first and after the last. Zero at rest; without
 /// a table also at t = 0. `Value`: double or Vec3.
 template <class Value>
-struct Course {
+struct TimeFunction {
   Value rate, amplitude;
   double frequency = 0.0;  ///< nu [Hz]
   std::vector<std::pair<double, Value>> table = {};
@@ -24,10 +24,10 @@ struct Course {
 
 /// A body is shifted, and turned about an axis that is shifted with it.
 struct ImposedMotion {
-  Course<Vec3> shift{Vec3::Zero(), Vec3::Zero()};  ///< [m], world frame
-  Vec3 axis = Vec3::UnitZ();                       ///< unit, world frame
-  Vec3 centre = Vec3::Zero();                      ///< a point of the axis at t = 0 [m]
-  Course<double> turn{0.0, 0.0};                   ///< about the axis, right-handed [rad]
+  TimeFunction<Vec3> shift{Vec3::Zero(), Vec3::Zero()};  ///< [m], world frame
+  Vec3 axis = Vec3::UnitZ();                             ///< unit, world frame
+  Vec3 centre = Vec3::Zero();                            ///< a point of the axis at t = 0 [m]
+  TimeFunction<double> turn{0.0, 0.0};                   ///< about the axis, right-handed [rad]
 
   /// The pose at t of a body that is at `start` when shift and turn are zero.
   Pose pose_at(double t, const Pose& start) const;

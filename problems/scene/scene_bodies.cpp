@@ -38,7 +38,7 @@ NumberRows read_table(TomlTable& table, size_t columns, const char* unit) {
   return rows;
 }
 
-void read_shift(TomlTable& table, Course<Vec3>& shift, Presence presence) {
+void read_shift(TomlTable& table, TimeFunction<Vec3>& shift, Presence presence) {
   table.read("velocity", &shift.rate, of_unit("m/s"), only_where_given);
   table.read("amplitude", &shift.amplitude, of_unit("m"), presence);
   table.read("frequency", &shift.frequency, in(not_negative, "Hz"), presence);

@@ -46,7 +46,7 @@ fs::path find_scene(const std::string& name_or_path) {
   if (is_file(path)) return path;
   const bool is_name =
       !name_or_path.empty() && !path.has_parent_path() && path.extension() != ".toml";
-  if (is_there(path) && !is_folder(path))
+  if (path_exists(path) && !is_folder(path))
     throw Error(name_or_path + ": a pipe or a device, expected a scene file");
   if (!is_name) throw Error(name_or_path + ": no such scene file");
   const fs::path named = scene_folder() / (name_or_path + ".toml");

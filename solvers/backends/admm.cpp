@@ -31,7 +31,7 @@ class Admm final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
-    iteration.evaluated(w_.begin_at(r, u_), r);
+    iteration.evaluated(w_.project_and_evaluate(r, u_), r);
     shift_.reset(w_);
     shift_.follow(w_, u_);
     for (int c = 0; c < w_.contact_count(); ++c) w_.put(y_, c, -shift_.shifted(w_, u_, c));
@@ -46,7 +46,7 @@ class Admm final : public Solver {
       w_.velocity(r, u_);
       follow();
       if (iteration.count() >= next_look_) adapt(iteration.count());
-      if (iteration.error_due()) iteration.evaluated(w_.error(r, u_), r);
+      if (iteration.is_error_due()) iteration.evaluated(w_.error(r, u_), r);
     }
     return iteration.finish(std::move(r));
   }

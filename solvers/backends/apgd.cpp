@@ -23,7 +23,7 @@ class Apgd final : public Solver {
 
   Solved solve(const FrictionProblem&, Impulses r, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.02});
-    iteration.evaluated(w_.begin_at(r, u_), r);
+    iteration.evaluated(w_.project_and_evaluate(r, u_), r);
     shift_.reset(w_);
     shift_.follow(w_, u_);
     step_ = first_step_;
@@ -37,7 +37,7 @@ class Apgd final : public Solver {
         if (iteration.count() % shift_every == 0) shift_.follow(w_, u_);
         step_ *= 1.02;
       }
-      if (iteration.error_due()) iteration.evaluated(w_.error(r, u_), r);
+      if (iteration.is_error_due()) iteration.evaluated(w_.error(r, u_), r);
     }
     return iteration.finish(std::move(r));
   }

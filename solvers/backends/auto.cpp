@@ -23,11 +23,11 @@ double stored_step(const FrictionProblem& problem) {
 class Auto final : public Solver {
  public:
   void prepare(const FrictionProblem&) override {
-    for (LateSolver* way : {&sweeps_, &burst_, &proximal_, &interior_}) way->is_prepared = false;
+    for (LazySolver* way : {&sweeps_, &burst_, &proximal_, &interior_}) way->is_prepared = false;
   }
 
   void use_team(WorkerTeam* team) override {
-    for (LateSolver* way : {&sweeps_, &burst_, &proximal_, &interior_}) way->solver->use_team(team);
+    for (LazySolver* way : {&sweeps_, &burst_, &proximal_, &interior_}) way->solver->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
@@ -44,10 +44,10 @@ class Auto final : public Solver {
                         : problem.has_dynamics
                             ? std::max(first_step, sweeps_of_step(problem.contact_count()))
                             : stored_step(problem);
-    LateSolver& newton = problem.has_dynamics && !is_scarce ? burst_ : proximal_;
+    LazySolver& newton = problem.has_dynamics && !is_scarce ? burst_ : proximal_;
 
     Course course(budget, std::move(start));
-    SlowSweeps slow(step, 0.25 * budget.max_iterations, budget);
+    SweepStopRule slow(step, 0.25 * budget.max_iterations, budget);
     course.run(sweeps_.prepared(problem), problem, budget.max_iterations, std::ref(slow));
     int idle = 0;
     for (double steps = first_steps; !course.over() && idle < 2; steps *= 2.0) {
@@ -77,10 +77,10 @@ class Auto final : public Solver {
   /// Where a budget has so few iterations, a sweep is as dear as a factorisation.
   static constexpr int few_iterations = 1000;
 
-  LateSolver sweeps_{make_nesterov_pgs(/*returns_best=*/false)};
-  LateSolver burst_{make_newton_burst(/*begins_with_sweeps=*/false)};
-  LateSolver proximal_{make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4})};
-  LateSolver interior_{make_interior_point()};
+  LazySolver sweeps_{make_nesterov_pgs(/*returns_best=*/false)};
+  LazySolver burst_{make_newton_burst(/*begins_with_sweeps=*/false)};
+  LazySolver proximal_{make_proximal_newton({.start_sweeps = 0, .first_weight = 3e-4})};
+  LazySolver interior_{make_interior_point()};
 };
 
 }  // namespace

@@ -44,9 +44,9 @@ std::unique_ptr<Solver> make_nncg();
 /// looks in a row promise that the rest of the way to budget.aim() costs more than the dozen Newton
 /// steps that mostly suffice. Before that they get the cost of 8 steps, or `at_most` if that is
 /// less, but no more than 500 sweeps where the error is far from the aim. `budget` outlives it.
-class SlowSweeps {
+class SweepStopRule {
  public:
-  SlowSweeps(double step, double at_most, const Budget& budget);
+  SweepStopRule(double step, double at_most, const Budget& budget);
   bool operator()(int sweeps, double error);
 
  private:

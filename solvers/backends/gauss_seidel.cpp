@@ -212,7 +212,7 @@ class GaussSeidel final : public Solver {
       square = sweep(square);
       if (iteration.count() == 1) change.seen(0, square, first);
       const bool is_asked = rule_ && (change.promises(iteration.count(), square) || rule_->asks());
-      if (!iteration.error_due() && !is_asked) continue;
+      if (!iteration.is_error_due() && !is_asked) continue;
       const double error = sweep_->rough_error();
       looked(iteration.ends_with(error) ? last_error(problem, iteration, r) : error);
       if (iteration.is_over() && !sweep_->is_storable()) looked(last_error(problem, iteration, r));
@@ -287,13 +287,13 @@ std::unique_ptr<Solver> make_nncg() {
 
 double sweeps_of_step(int contacts) { return 1.3 * std::sqrt(contacts * std::sqrt(contacts)); }
 
-SlowSweeps::SlowSweeps(double step, double at_most, const Budget& budget)
+SweepStopRule::SweepStopRule(double step, double at_most, const Budget& budget)
     : budget_(budget),
       least_near_(static_cast<int>(std::min(8.0 * step, at_most))),
       least_far_(std::min(500, least_near_)),
       most_(12.0 * step) {}
 
-bool SlowSweeps::operator()(int sweeps, double error) {
+bool SweepStopRule::operator()(int sweeps, double error) {
   // A single look may have caught the error while it rose.
   refusals_ = left(sweeps, error) > most_ ? refusals_ + 1 : 0;
   return refusals_ > 1 && sweeps >= (error < near * budget_.aim() ? least_near_ : least_far_);
@@ -301,7 +301,7 @@ bool SlowSweeps::operator()(int sweeps, double error) {
 
 /// The number of further sweeps from this error to the aim. Errors fall about like a power of the
 /// number of sweeps; the exponent, small in jams, comes from the later half of the sweeps.
-double SlowSweeps::left(int sweeps, double error) {
+double SweepStopRule::left(int sweeps, double error) {
   constexpr double unknown = 1e300;
   if (sweeps == 0) return unknown;
   looks_.emplace_back(sweeps, error);

@@ -52,7 +52,7 @@ class InteriorPoint final : public Solver {
   /// points is at most `near`, or the steps stall.
   void approach(Course& course, double near) {
     Impulses r = course.best();
-    double halved = w_.begin_at(r, u_);
+    double halved = w_.project_and_evaluate(r, u_);
     course.offer(r, halved);
     shift_.reset(w_);
     shift_.follow(w_, u_);
@@ -290,7 +290,7 @@ class InteriorPoint final : public Solver {
   std::vector<Vector> target_;  ///< c in step()
   Eigen::VectorXd q_, u_, rounded_u_, right_, dr_, dg_;
   /// Begins without sweeps, which would undo the balance of the interior point.
-  LateSolver polisher_{make_proximal_newton({.start_sweeps = 0})};
+  LazySolver polisher_{make_proximal_newton({.start_sweeps = 0})};
 };
 
 }  // namespace

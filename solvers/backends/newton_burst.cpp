@@ -34,7 +34,7 @@ class RegularNewton {
 
   /// Moves every impulse into its cone, which a Newton step may leave, and computes u from r
   /// afresh. Returns the judge's error [m/s].
-  double settle(NewtonIterate& at) { return w_.begin_at(at.r, at.u); }
+  double settle(NewtonIterate& at) { return w_.project_and_evaluate(at.r, at.u); }
 
   /// Regularises the law by `epsilon` around `centre` from here on; no status is known.
   void set_centre(const Impulses& centre, double epsilon) {
@@ -124,13 +124,13 @@ class NewtonBurst final : public Solver {
   void use_team(WorkerTeam* team) override {
     sweeps_->use_team(team);
     newton_.use_team(team);
-    for (LateSolver* way : {&short_walk_, &walk_}) way->solver->use_team(team);
+    for (LazySolver* way : {&short_walk_, &walk_}) way->solver->use_team(team);
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Course course(budget, std::move(start));
     if (begins_with_sweeps_) {
-      SlowSweeps slow(sweeps_of_step(problem.contact_count()), budget.max_iterations, budget);
+      SweepStopRule slow(sweeps_of_step(problem.contact_count()), budget.max_iterations, budget);
       course.run(*sweeps_, problem, budget.max_iterations, std::ref(slow));
     } else {  // the start itself, without impulses that move nothing
       NewtonIterate at{course.best(), {}};
@@ -321,8 +321,8 @@ class NewtonBurst final : public Solver {
   std::unique_ptr<Solver> sweeps_ = make_nesterov_pgs(/*returns_best=*/false);
   RegularNewton newton_;
   // Proximal-point steps that may pass through worse iterates, and so come out of jams.
-  LateSolver short_walk_{make_proximal_newton({.start_sweeps = 0})};
-  LateSolver walk_{make_proximal_newton(
+  LazySolver short_walk_{make_proximal_newton({.start_sweeps = 0})};
+  LazySolver walk_{make_proximal_newton(
       {.start_sweeps = 0, .accelerated = true, .rho_factors = {100.0, 1000.0, 10.0}})};
   bool is_ready_ = false;  ///< newton_ is prepared for problem_
   const FrictionProblem* problem_ = nullptr;

@@ -41,7 +41,7 @@ class Sap final : public Solver {
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Iteration iteration(budget, {1, 1.0});
     gamma_ = std::move(start);
-    iteration.evaluated(w_.begin_at(gamma_, true_u_), gamma_);
+    iteration.evaluated(w_.project_and_evaluate(gamma_, true_u_), gamma_);
     centre_ = gamma_;
     if (is_stored_)
       lambda_ = gamma_;

@@ -36,7 +36,7 @@ struct SiconosRecipe {
 /// = 0: no impulse there.
 class BlockProblem {
  public:
-  void take(const MovingContacts& moving) {
+  void take(const ReducedProblem& moving) {
     by_blocks_ = dense_problem_ = nullptr;
     block_.clear();
     block_end_.clear();
@@ -97,7 +97,7 @@ class BlockProblem {
     return NM_create_from_data(NM_DENSE, 3 * contacts_, 3 * contacts_, dense_.data());
   }
 
-  void add_block_row(const MovingContacts& moving, int k) {
+  void add_block_row(const ReducedProblem& moving, int k) {
     std::map<int, Eigen::Matrix3d> blocks;  // by column, in order
     for (int i = 0; i < moving.rows(k); ++i)
       for (SparseRows::InnerIterator entry(moving.w, moving.row_begin[k] + i); entry; ++entry) {
@@ -114,7 +114,7 @@ class BlockProblem {
   }
 
   int contacts_ = 0;
-  std::vector<int> row_;  ///< where each row of MovingContacts went
+  std::vector<int> row_;  ///< where each row of ReducedProblem went
   std::vector<double> friction_;
   Eigen::VectorXd q_;
   std::vector<std::size_t> block_begin_, block_column_;
@@ -206,7 +206,7 @@ class Siconos final : public Solver {
   }
 
   const SiconosRecipe& recipe_;
-  MovingContacts moving_;
+  ReducedProblem moving_;
   BlockProblem blocks_;
   bool is_taken_ = false, is_dense_ = false;
 };

@@ -286,7 +286,7 @@ struct FrictionVector {
 };
 
 template <typename Element>
-BALLAST_INLINE void fetch(const Element& element) {
+BALLAST_INLINE void prefetch(const Element& element) {
   const char* bytes = reinterpret_cast<const char*>(&element);
 #pragma GCC unroll 96
   for (size_t at = 0; at < sizeof element; at += 64) __builtin_prefetch(bytes + at);
@@ -301,9 +301,9 @@ BALLAST_INLINE void sweep_groups(const Run* runs, int i, SearchStep step, LaneSu
     g[run] = runs[run].group(i);
     if constexpr (Far) {
       const int next = runs[run].group(std::min(i + 1, runs[run].count - 1));
-      fetch(runs[run].groups[next]);
-      fetch(runs[run].impulses[next]);
-      if constexpr (Search) fetch(runs[run].search[next]);
+      prefetch(runs[run].groups[next]);
+      prefetch(runs[run].impulses[next]);
+      if constexpr (Search) prefetch(runs[run].search[next]);
     }
   }
 #pragma GCC unroll 4

@@ -210,7 +210,7 @@ double to_principal(Record& k, double mu, TangentTurn& turn) {
 }  // namespace
 
 template <typename Task>
-void ScalarSweep::for_parts(const Task& task) {
+void ScalarSweep::for_parts_in_phases(const Task& task) {
   const int slabs = plan_.slabs();
   run_parts(team_, slabs, [&](int k) { task(plan_.parts()[k], k); });
   run_parts(team_, slabs - 1, [&](int k) { task(plan_.parts()[slabs + k], slabs + k); });
@@ -226,7 +226,7 @@ void ScalarSweep::prepare(const FrictionProblem& problem) {
   impulses_.resize(order.size());
   turn_.resize(order.size());
   lambda_max_.resize(order.size());
-  for_parts([&](const SweepPlan::Part& part, int number) {
+  for_parts_in_phases([&](const SweepPlan::Part& part, int number) {
     for (int i = part.begin; i < part.end; ++i)
       prepare_record(problem, i, problem.dynamics.body_count() + number);
   });
@@ -291,7 +291,7 @@ void ScalarSweep::store(const FrictionProblem& problem, Impulses& r) const {
 }
 
 void ScalarSweep::sweep() {
-  for_parts([this](const SweepPlan::Part& part, int) {
+  for_parts_in_phases([this](const SweepPlan::Part& part, int) {
     sweep_records(records_.data() + part.begin, impulses_.data() + part.begin,
                   part.friction_end - part.begin, part.end - part.begin, velocity_.data());
   });
@@ -308,7 +308,7 @@ void ScalarSweep::start_search() {
 double ScalarSweep::sweep_along(SearchStep step) {
   move_bodies(step, velocity_.data(), velocity_before_.data(), velocity_direction_.data(),
               static_cast<int>(velocity_.size()));
-  for_parts([&](const SweepPlan::Part& part, int number) {
+  for_parts_in_phases([&](const SweepPlan::Part& part, int number) {
     part_square_[number] = sweep_records_along(
         step, records_.data() + part.begin, impulses_.data() + part.begin,
         impulses_before_.data() + part.begin, impulse_direction_.data() + part.begin,
@@ -320,7 +320,7 @@ double ScalarSweep::sweep_along(SearchStep step) {
 }
 
 double ScalarSweep::error() {
-  for_parts([this](const SweepPlan::Part& part, int number) {
+  for_parts_in_phases([this](const SweepPlan::Part& part, int number) {
     RootMeanSquare mean;
     // Leave out contacts that nothing moves, as the judge does.
     for (int k = part.begin; k < part.end; ++k)

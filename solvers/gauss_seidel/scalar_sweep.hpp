@@ -61,7 +61,7 @@ class ScalarSweep final : public ContactSweep {
   /// Calls task(part, its number) for the slabs' interiors, all at the same time, then for the
   /// interfaces.
   template <typename Task>
-  void for_parts(const Task& task);
+  void for_parts_in_phases(const Task& task);
   void prepare_bodies(const DynamicsForm& dynamics);
   void prepare_record(const FrictionProblem& problem, int place, int nowhere);
 

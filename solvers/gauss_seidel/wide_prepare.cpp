@@ -114,7 +114,7 @@ void WideSweep::place_bodies(const DynamicsForm& dynamics) {
 bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
   const int count = static_cast<int>(parts_.size());
   if (groupings_.size() < parts_.size()) groupings_.resize(parts_.size());
-  for_all_parts([&](int k) { parts_[k].is_usual = group_part(dynamics, k); });
+  for_parts_by_slab([&](int k) { parts_[k].is_vectorisable = group_part(dynamics, k); });
   contacts_ = 0;
   int groups = 0, walls = 0;
   struct {
@@ -122,8 +122,8 @@ bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
   } end;  // of each kind's groups
   for (int k = 0; k < count; ++k) {
     Part& part = parts_[k];
-    if (!part.is_usual) return false;
-    for_kinds(
+    if (!part.is_vectorisable) return false;
+    for_each_kind(
         [this]<typename Group>(const Kind<Group>&, Range& range, int& last) {
           range.begin = last;
           last += range.count;
@@ -136,7 +136,7 @@ bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
     walls += groupings_[k].on_walls;
     groups += part.friction.count + part.one_row.count;
   }
-  for_kinds(
+  for_each_kind(
       [](auto& kind, int last) {
         kind.groups.resize(last);
         kind.frames.resize(last);
@@ -178,7 +178,7 @@ bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
     grouping.contacts += static_cast<int>(room.chosen.size());
     return room.groups.count();
   };
-  for_kinds([](auto& kind) { kind.contact.clear(); }, grouping.lanes);
+  for_each_kind([](auto& kind) { kind.contact.clear(); }, grouping.lanes);
   grouping.wall_of_group.clear();
   grouping.contacts = 0;
   room.walls.clear();
@@ -204,23 +204,23 @@ bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
 
 /// Makes the records; every thread those of its share of the parts.
 bool WideSweep::make_records(const FrictionProblem& problem) {
-  for_all_parts([&](int number) {
+  for_parts_by_slab([&](int number) {
     Part& part = parts_[number];
     const Grouping& grouping = groupings_[number];
-    for_kinds(
+    for_each_kind(
         [&](auto& kind, const auto& lanes, const Range& range, const auto& loops) {
           for (int g = 0; g < range.count; ++g) {
             auto& k = kind.groups[range.begin + g];
             const bool made = make_group(problem, lanes.contact.data() + g * group_lanes,
                                          part.nowhere, k, kind.frames[range.begin + g], loops);
-            part.is_usual = part.is_usual && made;
+            part.is_vectorisable = part.is_vectorisable && made;
             if constexpr (requires { k.wall; })
               k.wall_body = row_of_body_[grouping.wall_of_group[g]] * row_bytes;
           }
         },
         exact_, grouping.lanes, part, kernels_->exact);
   });
-  return std::ranges::all_of(parts_, &Part::is_usual);
+  return std::ranges::all_of(parts_, &Part::is_vectorisable);
 }
 
 /// Makes the record of the contacts in `lanes`. False: there is a contact of another kind.

@@ -61,8 +61,8 @@ void cast_group(const Double& k, Single& s) {
 }  // namespace
 
 void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
-  for_parts(exact_, [&](const Part& part) {
-    for_kinds(
+  for_parts_in_phases(exact_, [&](const Part& part) {
+    for_each_kind(
         [&](auto& kind, const Range& range) {
           for (int g = range.begin; g < range.begin + range.count; ++g) {
             kind.impulses[g] = {};
@@ -94,7 +94,7 @@ void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
 void WideSweep::push_part(const Part& part) {
   std::copy_n(free_.begin() + part.bodies.begin, part.bodies.count,
               exact_.bodies.begin() + part.bodies.begin);
-  for_kinds(
+  for_each_kind(
       [this](const auto& kind, const auto& loops, const Range& range) {
         loops.push(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
                    range.count, exact_.bodies.data());
@@ -105,7 +105,7 @@ void WideSweep::push_part(const Part& part) {
 /// Prefetches all body rows that another core may have written last. Fetched one by one, as the
 /// groups of an interface need them, each would take a hundred nanoseconds and more.
 template <typename Number>
-void WideSweep::fetch_shared(const State<Number>& state, const Part& interface) const {
+void WideSweep::prefetch_shared(const State<Number>& state, const Part& interface) const {
   constexpr int line = 64;  // bytes
   const Part* lower = &interface - plan_.slabs();
   for (const Part* slab : {lower, lower + 1}) {
@@ -118,8 +118,8 @@ void WideSweep::fetch_shared(const State<Number>& state, const Part& interface) 
 void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
   // Contacts between two bodies that never move belong to no group.
   r.setZero(problem.row_count());
-  for_all_parts([&](int part) {
-    for_kinds(
+  for_parts_by_slab([&](int part) {
+    for_each_kind(
         [&](const auto& kind, const Range& range) {
           for (int g = range.begin; g < range.begin + range.count; ++g) {
             const GroupFrame& f = kind.frames[g];
@@ -183,7 +183,7 @@ double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, const S
     sweep_parts(state, kernels, step, parts);
   });
   for_pairs(std::span(parts_).subspan(plan_.slabs()), [&](std::span<Part> parts) {
-    for (const Part& part : parts) fetch_shared(state, part);
+    for (const Part& part : parts) prefetch_shared(state, part);
     sweep_parts(state, kernels, step, parts);
   });
   double square = 0.0;
@@ -202,7 +202,7 @@ double WideSweep::sweep_in_precision(const SearchStep* step) {
 template <typename Number>
 void WideSweep::start_search_in(State<Number>& state) {
   search_begins_ = false;
-  for_kinds([](auto& kind) { kind.search.assign(kind.groups.size(), {}); }, state);
+  for_each_kind([](auto& kind) { kind.search.assign(kind.groups.size(), {}); }, state);
   state.before = state.bodies;
   state.direction.assign(state.bodies.size(), {});
 }
@@ -218,7 +218,7 @@ double WideSweep::error() {
   const bool begins = single_begins_;
   begins ? enter_single() : refresh();
   seen_error_ = error_in(exact_, kernels_->exact);
-  for_parts(exact_, [this](Part& part) { settle(part); });
+  for_parts_in_phases(exact_, [this](Part& part) { settle(part); });
   unseen_ = 0;
   begins || single_suffices(seen_error_) ? choose_awake(seen_error_) : leave_single();
   return seen_error_;
@@ -237,9 +237,9 @@ double WideSweep::rough_error() {
 
 template <typename Number, typename Kernels>
 double WideSweep::error_in(const State<Number>& state, const Kernels& kernels) {
-  for_parts(state, [&](Part& part) {
+  for_parts_in_phases(state, [&](Part& part) {
     part.error_square = 0.0;
-    for_kinds(
+    for_each_kind(
         [&](const auto& kind, const auto& exact, auto& single, const auto& loops, Range range) {
           part.error_square +=
               loops.error(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
@@ -264,7 +264,7 @@ double WideSweep::error_in(const State<Number>& state, const Kernels& kernels) {
 void WideSweep::enter_single() {
   single_begins_ = false;
   in_single_ = true;
-  for_kinds(
+  for_each_kind(
       [](const auto& exact, auto& single) {
         single.impulses.resize(exact.groups.size());
         single.groups.resize(exact.groups.size());
@@ -272,8 +272,8 @@ void WideSweep::enter_single() {
         single.awake.resize(exact.groups.size());
       },
       exact_, single_);
-  for_parts(exact_, [this](const Part& part) {
-    for_kinds(
+  for_parts_in_phases(exact_, [this](const Part& part) {
+    for_each_kind(
         [this](const auto& exact, auto& single, const Range& range) {
           for (int g = range.begin; g < range.begin + range.count; ++g) {
             if (!single_made_) cast_group(exact.groups[g], single.groups[g]);
@@ -292,9 +292,9 @@ void WideSweep::enter_single() {
 /// Casts the iterate to double and sums the squares of its normal impulses, as velocities n y'.
 void WideSweep::refresh() {
   last_bodies_.swap(exact_.bodies);
-  for_parts(exact_, [this](Part& part) {
+  for_parts_in_phases(exact_, [this](Part& part) {
     double squares[group_lanes] = {};
-    for_kinds(
+    for_each_kind(
         [&squares](const auto& single, auto& exact, const Range& range) {
           for (int g = range.begin; g < range.begin + range.count; ++g) {
             cast_rows(single.impulses[g].y, exact.impulses[g].y);
@@ -324,7 +324,7 @@ void WideSweep::settle(Part& part) {
     for (int i = 0; i < 8; ++i) single_.before[b].w[i] -= single_.bodies[b].w[i];
     single_.bodies[b] = {};
   }
-  for_kinds(
+  for_each_kind(
       [](auto& single, const Range& range) {
         for (int g = range.begin; g < range.begin + range.count; ++g)
           cast_rows(single.seen[g].u, single.groups[g].bias);
@@ -362,8 +362,8 @@ void WideSweep::choose_awake(double error) {
     }
     return true;
   };
-  for_parts(exact_, [&](Part& part) {
-    for_kinds(
+  for_parts_in_phases(exact_, [&](Part& part) {
+    for_each_kind(
         [&](const auto& exact, auto& single, Range& range) {
           range.awake = 0;
           for (int g = 0; g < range.count; ++g)

@@ -85,7 +85,7 @@ class WideSweep final : public ContactSweep {
     double change_square = 0.0;  ///< of the last sweep along a search
     double error_square = 0.0;   ///< of error()
     double impulse_square = 0.0, drift_square = 0.0;  ///< at the last error() in single precision
-    bool is_usual = true;  ///< there are groups for all kinds of its contacts
+    bool is_vectorisable = true;  ///< there are groups for all kinds of its contacts
   };
   template <typename Group>
   struct Lanes {
@@ -100,7 +100,7 @@ class WideSweep final : public ContactSweep {
 
   /// Calls task() with the friction members of all `each`, then the one_row, then the wall ones.
   template <typename Task, typename... Each>
-  static void for_kinds(const Task& task, Each&... each) {
+  static void for_each_kind(const Task& task, Each&... each) {
     task(each.friction...);
     task(each.one_row...);
     task(each.wall...);
@@ -120,18 +120,18 @@ class WideSweep final : public ContactSweep {
   void free_bodies(const DynamicsForm& dynamics);
   /// Calls task(part) for all interiors at the same time, then for all interfaces.
   template <typename Number, typename Task>
-  void for_parts(const State<Number>& state, const Task& task) {
+  void for_parts_in_phases(const State<Number>& state, const Task& task) {
     Part* interfaces = parts_.data() + plan_.slabs();
     run_parts(team_, plan_.slabs(), [&](int slab) { task(parts_[slab]); });
     run_parts(team_, plan_.slabs() - 1, [&](int k) {
-      fetch_shared(state, interfaces[k]);
+      prefetch_shared(state, interfaces[k]);
       task(interfaces[k]);
     });
   }
   /// Calls task(number) for all parts, each slab followed by the interface behind it. Each thread
-  /// has the same parts as in for_parts().
+  /// has the same parts as in for_parts_in_phases().
   template <typename Task>
-  void for_all_parts(const Task& task) const {
+  void for_parts_by_slab(const Task& task) const {
     run_parts(team_, plan_.slabs(), [&](int slab) {
       task(slab);
       if (slab + 1 < plan_.slabs()) task(plan_.slabs() + slab);
@@ -146,7 +146,7 @@ class WideSweep final : public ContactSweep {
                [&](int begin, int end) { task(parts.subspan(begin, end - begin)); });
   }
   template <typename Number>
-  void fetch_shared(const State<Number>& state, const Part& interface) const;
+  void prefetch_shared(const State<Number>& state, const Part& interface) const;
   void push_part(const Part& part);
   template <typename Number, typename Kernels>
   void sweep_parts(State<Number>& state, const Kernels& kernels, const SearchStep* step,

@@ -48,9 +48,9 @@ class ConeProgram {
  private:
   Eigen::VectorXd linear_term(const Eigen::VectorXd& x) const;
 
-  MovingContacts moving_;
+  ReducedProblem moving_;
   SparseRows w_as_is_;  ///< a stored W may be unsymmetric: solve() adds its skew part to q, like s
-  std::vector<int> row_;   ///< row in MovingContacts of each row here
+  std::vector<int> row_;   ///< row in ReducedProblem of each row here
   Eigen::VectorXd scale_;  ///< per row: impulse = scale * x [N s]
   double unit_ = 1.0;      ///< largest |entry| of q / sqrt(lambda_max(W_cc)) [sqrt(J)]
   double velocity_unit_ = 1.0;

@@ -67,9 +67,9 @@ ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vect
     const double x = r[0], y = rho * u[0], norm = std::hypot(x, y);
     l.f = Vector3d(x + y - norm, r[1], r[2]);
     // Where x and y both vanish F has a corner; 0.3 is about 1 - sqrt(1/2), its slope along x = y.
-    l.by_r = Matrix3d::Identity();
-    l.by_r(0, 0) = norm > 0.0 ? 1.0 - x / norm : 0.3;
-    l.by_u(0, 0) = rho * (norm > 0.0 ? 1.0 - y / norm : 0.3);
+    l.df_dr = Matrix3d::Identity();
+    l.df_dr(0, 0) = norm > 0.0 ? 1.0 - x / norm : 0.3;
+    l.df_du(0, 0) = rho * (norm > 0.0 ? 1.0 - y / norm : 0.3);
     return l;
   }
   // Lorentz's cone: x = (mu r_N, r_T), y = rho (modified u_N / mu, u_T), x . y = rho r . modified u
@@ -80,8 +80,8 @@ ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vect
   l.f = from_x.cwiseProduct(x + y - z);
   if (z[0] == 0.0) {  // x = y = 0: the limit along the cone's axis with x = y
     const double slope = 1.0 - std::sqrt(0.5);
-    l.by_r = slope * Matrix3d::Identity();
-    l.by_u = slope * from_x.cwiseProduct(to_y).asDiagonal() * modified_velocity_jacobian(u, mu);
+    l.df_dr = slope * Matrix3d::Identity();
+    l.df_du = slope * from_x.cwiseProduct(to_y).asDiagonal() * modified_velocity_jacobian(u, mu);
     return l;
   }
   // Differentiating z o z = x o x + y o y gives L_z dz = L_x dx + L_y dy. On the cone's boundary
@@ -92,8 +92,8 @@ ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vect
   const Matrix3d inverse = lz.inverse();
   const Matrix3d by_x = Matrix3d::Identity() - inverse * arrow(x),
                  by_y = Matrix3d::Identity() - inverse * arrow(y);
-  l.by_r = from_x.asDiagonal() * by_x * to_x.asDiagonal();
-  l.by_u = from_x.asDiagonal() * by_y * to_y.asDiagonal() * modified_velocity_jacobian(u, mu);
+  l.df_dr = from_x.asDiagonal() * by_x * to_x.asDiagonal();
+  l.df_du = from_x.asDiagonal() * by_y * to_y.asDiagonal() * modified_velocity_jacobian(u, mu);
   return l;
 }
 

@@ -18,8 +18,8 @@ enum class ContactEquation {
 
 struct ContactLinearisation {
   Eigen::Vector3d f;
-  Eigen::Matrix3d by_r;  ///< dF/dr [-]
-  Eigen::Matrix3d by_u;  ///< dF/du [kg]
+  Eigen::Matrix3d df_dr;  ///< dF/dr [-]
+  Eigen::Matrix3d df_du;  ///< dF/du [kg]
 };
 
 /// F and its derivatives (exact wherever F is differentiable). One-row contacts are padded with

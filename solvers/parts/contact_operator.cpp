@@ -50,7 +50,7 @@ void ContactOperator::project(Impulses& r) const {
     put(r, c, rho_[c] > 0.0 ? project_cone(at(r, c), friction(c)) : Eigen::Vector3d::Zero());
 }
 
-double ContactOperator::begin_at(Impulses& r, Eigen::VectorXd& u) {
+double ContactOperator::project_and_evaluate(Impulses& r, Eigen::VectorXd& u) {
   project(r);
   velocity(r, u);
   return error(r, u);

@@ -51,7 +51,7 @@ class ContactOperator {
   void project(Impulses& r) const;
   /// Begins a method: moves r to the nearest point of its cones and sets u to the velocities that r
   /// gives. Returns error(r, u).
-  double begin_at(Impulses& r, Eigen::VectorXd& u);
+  double project_and_evaluate(Impulses& r, Eigen::VectorXd& u);
 
   /// The judge's scaled natural map, rms over contacts [m/s], of impulses r with the velocities u
   /// that they give.

@@ -13,7 +13,7 @@ constexpr int most_dense_rows = 600;
 
 }  // namespace
 
-/// Solves the contacts with by_u = 0 and lists the others.
+/// Solves the contacts with df_du = 0 and lists the others.
 bool NewtonSystem::solve_idle(const FrictionProblem& problem,
                               const std::vector<ContactLinearisation>& linear,
                               const std::vector<double>& alpha, Impulses& dr) {
@@ -26,9 +26,9 @@ bool NewtonSystem::solve_idle(const FrictionProblem& problem,
   for (int c = 0; c < problem.contact_count(); ++c) {
     const ContactLinearisation& l = linear[c];
     const int first = problem.row_begin[c], rows = problem.contact_rows(c);
-    b_[c] = l.by_r + alpha[c] * l.by_u;
+    b_[c] = l.df_dr + alpha[c] * l.df_du;
     if (!b_[c].allFinite() || !l.f.allFinite()) return false;
-    const bool is_pressed = rows == 3 ? !l.by_u.isZero(0.0) : l.by_u(0, 0) != 0.0;
+    const bool is_pressed = rows == 3 ? !l.df_du.isZero(0.0) : l.df_du(0, 0) != 0.0;
     for (int i = 0; i < rows; ++i) place_[first + i] = is_pressed ? pressed_rows_ + i : -1;
     if (is_pressed) {
       pressed_.push_back(c);
@@ -52,14 +52,14 @@ bool NewtonSystem::solve_dense(const FrictionProblem& problem,
   for (const int c : pressed_) {
     const int first = problem.row_begin[c], rows = problem.contact_rows(c), at = place_[first];
     right.segment(at, rows) = -linear[c].f.head(rows);
-    const auto by_u = linear[c].by_u.topLeftCorner(rows, rows);
+    const auto df_du = linear[c].df_du.topLeftCorner(rows, rows);
     for (int i = 0; i < rows; ++i)
       for (SparseRows::InnerIterator w(problem.delassus.w, first + i); w; ++w)
         // The dr of an idle contact is known already and goes to the right-hand side.
         if (place_[w.col()] < 0)
-          right.segment(at, rows) -= by_u.col(i) * (w.value() * dr[w.col()]);
+          right.segment(at, rows) -= df_du.col(i) * (w.value() * dr[w.col()]);
         else
-          matrix.col(place_[w.col()]).segment(at, rows) += by_u.col(i) * w.value();
+          matrix.col(place_[w.col()]).segment(at, rows) += df_du.col(i) * w.value();
     matrix.block(at, at, rows, rows) += b_[c].topLeftCorner(rows, rows);
   }
   const Eigen::VectorXd solution = matrix.partialPivLu().solve(right);  // NaN where singular
@@ -81,7 +81,7 @@ bool NewtonSystem::solve_sparse(const FrictionProblem& problem,
     right.segment(first, rows) = -linear[c].f.head(rows);
     for (int i = 0; i < rows; ++i)
       for (int j = 0; j < rows; ++j) {
-        gains.emplace_back(first + i, first + j, linear[c].by_u(i, j));
+        gains.emplace_back(first + i, first + j, linear[c].df_du(i, j));
         own.emplace_back(first + i, first + j, b_[c](i, j));
       }
   }
@@ -106,9 +106,9 @@ bool NewtonSystem::solve_bodies(const ContactOperator& w,
   gain_.resize(linear.size());
   dr.resize(problem.row_count());
   for (int c = 0; c < problem.contact_count(); ++c) {
-    const Eigen::Matrix3d inverse = (linear[c].by_r + alpha[c] * linear[c].by_u).inverse();
+    const Eigen::Matrix3d inverse = (linear[c].df_dr + alpha[c] * linear[c].df_du).inverse();
     const Eigen::Vector3d source = inverse * linear[c].f;
-    gain_[c] = inverse * linear[c].by_u;
+    gain_[c] = inverse * linear[c].df_du;
     if (problem.contact_rows(c) == 1)
       gain_[c] = Eigen::Vector3d(gain_[c](0, 0), 0.0, 0.0).asDiagonal();
     if (!source.allFinite() || !gain_[c].allFinite()) return false;

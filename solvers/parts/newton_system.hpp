@@ -9,15 +9,15 @@
 
 namespace ballast {
 
-///   by_r dr + by_u du = -f  at every contact,   du = W dr + alpha dr
+///   df_dr dr + df_du du = -f  at every contact,   du = W dr + alpha dr
 /// with a proximal term alpha, 0 for none.
 ///
-/// With the dynamics form the impulses are eliminated, dr = -B^-1 (f + by_u H dv), B = by_r + alpha
-/// by_u, and (M + H^T B^-1 by_u H) dv = -H^T B^-1 f is solved for the bodies' velocities: it has
-/// few unknowns and entries only between bodies that touch.
+/// With the dynamics form the impulses are eliminated, dr = -B^-1 (f + df_du H dv), B = df_dr +
+/// alpha df_du, and (M + H^T B^-1 df_du H) dv = -H^T B^-1 f is solved for the bodies' velocities:
+/// it has few unknowns and entries only between bodies that touch.
 ///
-/// With a stored W it is (B + by_u W) dr = -f. A contact that nothing presses has by_u = 0, and its
-/// own rows give its dr. The others form a dense system where they are few or W is nearly full;
+/// With a stored W it is (B + df_du W) dr = -f. A contact that nothing presses has df_du = 0, and
+/// its own rows give its dr. The others form a dense system where they are few or W is nearly full;
 /// elsewhere all contacts form a sparse one with W's pattern.
 class NewtonSystem {
  public:
@@ -25,7 +25,7 @@ class NewtonSystem {
   void prepare(const ContactOperator& w);
 
   /// Solves the system above for dr. `linear[c]` per contact; `alpha` [1/kg] per contact. With
-  /// the dynamics form B must be regular: alpha > 0 where by_r = 0, as at a sticking contact.
+  /// the dynamics form B must be regular: alpha > 0 where df_dr = 0, as at a sticking contact.
   /// False: singular.
   bool solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
              const std::vector<double>& alpha, Impulses& dr);
@@ -50,12 +50,12 @@ class NewtonSystem {
                     Impulses& dr);
 
   // The dynamics form:
-  std::vector<Eigen::Matrix3d> gain_;  ///< B^-1 by_u per contact
+  std::vector<Eigen::Matrix3d> gain_;  ///< B^-1 df_du per contact
   BodyMatrix matrix_;
   Eigen::VectorXd right_, dv_, u_;
   // A stored W:
   std::vector<Eigen::Matrix3d> b_;
-  std::vector<int> pressed_;  ///< contacts with by_u != 0
+  std::vector<int> pressed_;  ///< contacts with df_du != 0
   std::vector<int> place_;    ///< of each row among those of pressed contacts; -1: none
   int pressed_rows_ = 0;
   long pressed_entries_ = 0;  ///< entries of W in the rows of pressed contacts

@@ -34,7 +34,7 @@ bool Iteration::next() {
   return true;
 }
 
-bool Iteration::error_due() {
+bool Iteration::is_error_due() {
   // Once the time is over the iterate must be judged, and it is the last.
   out_of_time_ = is_late();
   return count_ >= next_check_ || count_ >= budget_.max_iterations || out_of_time_;

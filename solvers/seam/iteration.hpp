@@ -60,7 +60,7 @@ struct CheckSchedule {
   double growth_far = growth;
 };
 
-/// Use:  evaluated(error, r);  while (next()) { one iteration; if (error_due()) evaluated(error,
+/// Use:  evaluated(error, r);  while (next()) { one iteration; if (is_error_due()) evaluated(error,
 /// r); } finish(std::move(r));
 class Iteration : public SolveBook {
  public:
@@ -75,7 +75,7 @@ class Iteration : public SolveBook {
   bool next();
   /// Returns whether the iterate must be evaluated: by schedule, or because a limit is reached and
   /// finish() must report the error of the last iterate.
-  bool error_due();
+  bool is_error_due();
   /// True: evaluated(error) will find a reason to stop: the error, the iterations or the time.
   bool ends_with(double error) const {
     return reached(error) || count_ >= budget_.max_iterations || out_of_time_;
@@ -114,7 +114,7 @@ class Course : public SolveBook {
            decltype(Budget::gives_up) gives_up = {});
   /// The same for a solver that is prepared when it is first needed. Does nothing if the course is
   /// over.
-  void run(LateSolver& way, const FrictionProblem& problem, double most_iterations) {
+  void run(LazySolver& way, const FrictionProblem& problem, double most_iterations) {
     if (!over())
       run(way.prepared(problem), problem, static_cast<int>(std::min(most_iterations, 1e9)));
   }

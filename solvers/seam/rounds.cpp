@@ -17,7 +17,7 @@ SparseRows chosen(const SparseRows& w, const std::vector<int>& row) {
   return pick * w * SparseRows(pick.transpose());
 }
 
-void MovingContacts::take(const FrictionProblem& problem) {
+void ReducedProblem::take(const FrictionProblem& problem) {
   std::vector<Eigen::Matrix3d> diagonal;
   delassus_diagonal(problem, diagonal);
   Eigen::VectorXd whole_q;
@@ -64,7 +64,7 @@ bool answer_apart(const Budget& left, const std::function<bool(RoundAnswer&)>& c
   return true;
 }
 
-Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& moving, Impulses start,
+Solved solve_in_rounds(const FrictionProblem& problem, const ReducedProblem& moving, Impulses start,
                        const Budget& budget, int patience,
                        const std::function<void(const RoundRequest&, RoundAnswer&)>& round) {
   Course course(budget, std::move(start));

@@ -14,7 +14,7 @@ SparseRows chosen(const SparseRows& w, const std::vector<int>& row);
 
 /// u = w r + q over the contacts kept, in the problem's order. Any impulse solves the others
 /// (W_cc = 0: both bodies fixed); they get zero.
-struct MovingContacts {
+struct ReducedProblem {
   std::vector<int> contact;       ///< number in the problem of each contact kept
   std::vector<int> row_begin{0};  ///< rows of contact k here; size kept + 1
   std::vector<double> friction;
@@ -38,7 +38,7 @@ struct MovingContacts {
 };
 
 struct RoundRequest {
-  const Eigen::VectorXd& last;  ///< where the last round ended, rows of MovingContacts
+  const Eigen::VectorXd& last;  ///< where the last round ended, rows of ReducedProblem
   const Eigen::VectorXd& best;  ///< the iterate of least error so far
   double last_error;            ///< of `last`, by the judge [m/s]
   Budget left;                  ///< max_iterations > 0
@@ -63,7 +63,7 @@ bool answer_apart(const Budget& left, const std::function<bool(RoundAnswer&)>& c
 /// Calls `round` until the judge's error of the best iterate meets the budget, and returns that
 /// iterate; `stalled` when `patience` finished rounds after another bring no tenth less error. The
 /// judge evaluates every round's result; its time is start-up.
-Solved solve_in_rounds(const FrictionProblem& problem, const MovingContacts& moving, Impulses start,
+Solved solve_in_rounds(const FrictionProblem& problem, const ReducedProblem& moving, Impulses start,
                        const Budget& budget, int patience,
                        const std::function<void(const RoundRequest&, RoundAnswer&)>& round);
 

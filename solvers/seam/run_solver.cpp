@@ -65,7 +65,7 @@ std::string explained(const FrictionProblem& problem, SolverRun& run, double tol
   if (run.is_solved()) return "solved";
   constexpr int sweeps = 500;
   const double left = max_seconds - run.prepare_seconds - run.startup_seconds - run.solve_seconds;
-  const NoSolution proof = look_for_no_solution(problem, run.solved.impulses, sweeps, left);
+  const NoSolutionProof proof = prove_no_solution(problem, run.solved.impulses, sweeps, left);
   // An approach below the tolerance is no proof.
   if (proof.proved() && proof.approach > tolerance) {
     run.verdict = Verdict::no_solution;

@@ -31,7 +31,7 @@ Verdict verdict_of(StopReason reason, const ContactError& error, double toleranc
 /// Returns one line on the result of a run under `tolerance` [m/s]: "solved", "the judge denies it:
 /// -u_N is 0.3 m/s (rms), at most 4e-08 may be", "no solution found; r grows without bound: ...".
 /// For a run that is not solved it searches a proof that there is no solution, within what the run
-/// left of max_seconds, and a proof changes the verdict (look_for_no_solution: builds W, so never
+/// left of max_seconds, and a proof changes the verdict (prove_no_solution: builds W, so never
 /// call this within a step).
 std::string explained(const FrictionProblem& problem, SolverRun& run, double tolerance,
                       double max_seconds = 1e30);

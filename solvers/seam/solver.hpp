@@ -159,7 +159,7 @@ class Solver {
 };
 
 /// A solver that another one may not need: prepared at its first use, as ordering is expensive.
-struct LateSolver {
+struct LazySolver {
   std::unique_ptr<Solver> solver;
   bool is_prepared = false;
 

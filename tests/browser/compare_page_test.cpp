@@ -52,7 +52,7 @@ const HandMadeComparison& hand_made() {
 }
 
 /// True without a browser or without the library that draws charts (html_test has that case).
-bool is_missing() { return Browser::is_missing() || !page::can_answer(); }
+bool is_missing() { return Browser::is_missing() || !page::has_chart_library(); }
 
 /// The cells of the table's body as text, rows separated by "|".
 Json cells(Browser& browser, const std::string& table) {

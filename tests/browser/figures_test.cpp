@@ -34,7 +34,7 @@ page::Page wide_page() {
                  found, "0.495 … 0.505", found + "; the law misses the points"}};
   picture.plot = {.name = "two", .title = "Two curves", .panels = {panel}};
   page::Page page{.title = "Wide"};
-  page.answers = {.are_given = true, .with_curves = true};
+  page.answers = {.is_enabled = true, .has_charts = true};
   page.add({"table", "Table", {table}});
   page.add({"figure", "Figure", {picture}});
   return page;
@@ -46,7 +46,7 @@ std::filesystem::path page_of(const Panel& panel, const std::string& name,
   page::Picture picture;
   picture.plot = {.name = name, .title = name, .panels = {panel}};
   page::Page page{.title = name};
-  page.answers = {.are_given = true, .with_curves = true};
+  page.answers = {.is_enabled = true, .has_charts = true};
   page.add({"figure", "Figure", {picture}});
   page::draw_pictures(page, folder.path());
   write_whole_file(folder.path() / "page.html", html_of(page));
@@ -56,7 +56,7 @@ std::filesystem::path page_of(const Panel& panel, const std::string& name,
 }  // namespace
 
 TEST_CASE("later curves stand above earlier ones, and no column is cut where there is room") {
-  if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
+  if (Browser::is_missing() || !page::has_chart_library() || gnuplot_version().empty()) return;
   const TemporaryFolder folder;
   page::Page page = wide_page();
   page::draw_pictures(page, folder.path());
@@ -86,7 +86,7 @@ TEST_CASE("later curves stand above earlier ones, and no column is cut where the
 }
 
 TEST_CASE("a logarithmic axis ends beside its points, and only round values have numbers") {
-  if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
+  if (Browser::is_missing() || !page::has_chart_library() || gnuplot_version().empty()) return;
   const TemporaryFolder folder;
   Panel panel{.x_label = "x", .y_label = "y", .log_x = true, .log_y = true};
   panel.curves = {{.x = {0.006, 0.02, 0.036}, .y = {6, 7, 9}, .mark = Mark::points}};
@@ -102,7 +102,7 @@ TEST_CASE("a logarithmic axis ends beside its points, and only round values have
 }
 
 TEST_CASE("an axis has room for error bars and for the low side of bands") {
-  if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
+  if (Browser::is_missing() || !page::has_chart_library() || gnuplot_version().empty()) return;
   const TemporaryFolder folder;
   Panel panel{.x_label = "x", .y_label = "y"};
   panel.curves = {{.x = {0, 1, 2}, .y = {1, 2, 2.5}, .mark = Mark::points, .y_error = {0, 3, 0}},
@@ -114,7 +114,7 @@ TEST_CASE("an axis has room for error bars and for the low side of bands") {
 }
 
 TEST_CASE("the figures of a run tell the values under the pointer") {
-  if (Browser::is_missing() || !page::can_answer() || gnuplot_version().empty()) return;
+  if (Browser::is_missing() || !page::has_chart_library() || gnuplot_version().empty()) return;
   const DrivenBox& box = driven_box();
   Browser browser(1400, 900);
   browser.open(box.page(), "play=0", is_ready);

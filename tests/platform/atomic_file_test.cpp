@@ -189,15 +189,15 @@ TEST_CASE("what a name leads to, links followed") {
   const auto pipe = folder.path() / "pipe", missing = folder.path() / "missing";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
 
-  CHECK((is_there(file) && is_file(file) && !is_folder(file)));
-  CHECK((is_there(link) && is_file(link)));
-  CHECK((is_there(folder.path()) && is_folder(folder.path()) && !is_file(folder.path())));
-  CHECK((is_there(pipe) && !is_file(pipe) && !is_folder(pipe)));
+  CHECK((path_exists(file) && is_file(file) && !is_folder(file)));
+  CHECK((path_exists(link) && is_file(link)));
+  CHECK((path_exists(folder.path()) && is_folder(folder.path()) && !is_file(folder.path())));
+  CHECK((path_exists(pipe) && !is_file(pipe) && !is_folder(pipe)));
   // A name that the system refuses does not exist.
   const fs::path longer_than_any(std::string(5000, 'n'));
   REQUIRE_THROWS(fs::exists(longer_than_any));
   for (const fs::path& none : {missing, longer_than_any})
-    CHECK_FALSE((is_there(none) || is_file(none) || is_folder(none)));
+    CHECK_FALSE((path_exists(none) || is_file(none) || is_folder(none)));
 }
 
 namespace {

@@ -272,16 +272,16 @@ TEST_CASE("the last line of a log that says anything") {
 }
 
 TEST_CASE("this program knows its file and its words") {
-  CHECK(own_program().filename() == "platform_test");
-  const std::vector<std::string> words = own_words();
+  CHECK(executable_path().filename() == "platform_test");
+  const std::vector<std::string> words = process_arguments();
   REQUIRE_FALSE(words.empty());
   CHECK(fs::path(words[0]).filename() == "platform_test");
 }
 
 TEST_CASE("words for a shell") {
-  CHECK(shell_word("drive.frequency=5") == "drive.frequency=5");
-  CHECK(shell_word("a b") == "'a b'");
-  CHECK(shell_word("it's $HOME") == "'it'\\''s $HOME'");
+  CHECK(shell_quoted("drive.frequency=5") == "drive.frequency=5");
+  CHECK(shell_quoted("a b") == "'a b'");
+  CHECK(shell_quoted("it's $HOME") == "'it'\\''s $HOME'");
   CHECK(shell_line({"a", "b c", ""}) == "a 'b c' ''");
   // A shell reads the same words.
   const std::vector<std::string> words{"a b", "it's", "$HOME", "", "*", "x\ny"};

@@ -157,11 +157,11 @@ struct Taken {
   std::string said;
 };
 
-Taken take(const Scene& scene, const fs::path& cache, bool goes_on = true) {
+Taken take(const Scene& scene, const fs::path& cache, bool keep_going = true) {
   const Heard said(std::cout), shown(std::cerr);
   Taken taken;
-  const PackingOrder order{cache, [&] { return goes_on; }, Progress::Style::lines};
-  taken.there = take_packing(scene, make_rain(scene), order, taken.packing);
+  const PackingOptions order{cache, [&] { return keep_going; }, Progress::Style::lines};
+  taken.there = load_or_deposit(scene, make_rain(scene), order, taken.packing);
   taken.said = said.text();
   return taken;
 }

@@ -23,8 +23,8 @@ Scene tiled_box(std::vector<std::string> more = {}) {
 
 Packing taken(const Scene& scene, const fs::path& cache) {
   Packing packing;
-  const PackingOrder order{cache, [] { return true; }, Progress::Style::quiet};
-  REQUIRE(take_packing(scene, make_rain(scene), order, packing));
+  const PackingOptions order{cache, [] { return true; }, Progress::Style::quiet};
+  REQUIRE(load_or_deposit(scene, make_rain(scene), order, packing));
   return packing;
 }
 

@@ -155,14 +155,14 @@ TEST_CASE("a program of a list is served, and its rows are kept until its script
   INFO(first.output << first.errors);
   REQUIRE(first.status == 0);
   CHECK(rows_of(folder.path() / "out").at("served").verdict == "solved");
-  const auto was_there = [&] {
+  const auto was_stored = [&] {
     const std::string output = ballast_program(words).output;
     const size_t row = output.find("served");
     return output.substr(row, output.find('\n', row) - row).find("was there") != std::string::npos;
   };
-  CHECK(was_there());
+  CHECK(was_stored());
   folder.write("solver.sh", "# edited\nexec " + own + " \"$@\"");
-  CHECK_FALSE(was_there());
+  CHECK_FALSE(was_stored());
 }
 
 TEST_CASE("solve asks a program, and says what is wrong with the words") {

@@ -107,9 +107,9 @@ TEST_CASE("The same command goes on where all is there, and the held part moves"
   long held = 0;
   for (const auto& [name, row] : table(made / "manifest.csv")) {
     INFO(name);
-    const bool is_there = fs::exists(made / "held" / name);
-    CHECK(is_there == (row.at("held") == "1"));
-    CHECK(fs::exists(made / "problems" / name) != is_there);
+    const bool is_held = fs::exists(made / "held" / name);
+    CHECK(is_held == (row.at("held") == "1"));
+    CHECK(fs::exists(made / "problems" / name) != is_held);
     CHECK(fs::exists(reference_of(made / "held" / name)));
     held += row.at("held") == "1";
   }

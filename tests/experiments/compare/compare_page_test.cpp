@@ -37,7 +37,8 @@ TEST_CASE("The page of a comparison is well-formed and has what it promises") {
   CHECK(page.find("unsolved in it") != std::string::npos);  // cases that the mean hides
   // Where the page can answer, it has a place for each figure that it draws itself.
   for (const char* id : {"matrix", "profiles", "case-figures"})
-    CHECK((page.find(std::string("id=\"") + id + "\"") != std::string::npos) == page::can_answer());
+    CHECK((page.find(std::string("id=\"") + id + "\"") != std::string::npos) ==
+          page::has_chart_library());
 }
 
 TEST_CASE("What must not happen is told once, and what could not be read among it") {
@@ -79,7 +80,7 @@ TEST_CASE("The page's data are the cells of the CSV, to the letter") {
   run.stored_manifest = std::make_shared<const nlohmann::ordered_json>(
       nlohmann::ordered_json{{"summary", {{"memory_MB", 512.0}}}});
   const page::Answers answers = comparison_answers(run, rows);
-  CHECK(answers.are_given);
+  CHECK(answers.is_enabled);
   const Json data = Json::parse(answers.data);
   REQUIRE(data["columns"].size() == compare_columns().size());
   for (size_t c = 0; c < compare_columns().size(); ++c) {

@@ -26,7 +26,7 @@ CompareOptions options_in(const fs::path& folder, std::vector<ComparedSolver> so
   options.solvers = std::move(solvers);
   options.folder = folder;
   options.limits.memory_MB = 0.0;  // sanitizers reserve terabytes
-  options.limits.warm_seconds = 0.0;
+  options.limits.min_timing_seconds = 0.0;
   options.max_seconds = 20.0;
   return options;
 }
@@ -41,8 +41,8 @@ TEST_CASE("Rows that are there are not made again; damage or other options make 
   options.tolerances = {1e-4, 1e-6};
   options.repeats = 2;
   int made = 0;
-  const auto count = [&](const CompareRow&, bool was_there, size_t, size_t) {
-    made += !was_there;
+  const auto count = [&](const CompareRow&, bool was_stored, size_t, size_t) {
+    made += !was_stored;
     return true;
   };
   const std::vector<CompareRow> first = run_comparison(one_case(), options, count);
@@ -85,8 +85,8 @@ TEST_CASE("A comparison goes on after kill -9") {
   REQUIRE(WIFSIGNALED(status));
   int made = 0;
   const std::vector<CompareRow> rows =
-      run_comparison(cases, options, [&](const CompareRow&, bool was_there, size_t, size_t) {
-        made += !was_there;
+      run_comparison(cases, options, [&](const CompareRow&, bool was_stored, size_t, size_t) {
+        made += !was_stored;
         return true;
       });
   CHECK(rows.size() == 30);

@@ -72,7 +72,7 @@ ComparedSolver made_by(MakeSolver make, std::string key = {}) {
 }
 
 /// A single run, without a memory limit: sanitizers reserve terabytes.
-const SolveLimits once{.memory_MB = 0.0, .warm_seconds = 0.0};
+const SolveLimits once{.memory_MB = 0.0, .min_timing_seconds = 0.0};
 
 /// The row of a small problem that `make`'s solver solves to `tolerance`.
 CompareRow tried(SolverMaker make, double tolerance, double max_seconds = 20.0) {
@@ -121,7 +121,7 @@ TEST_CASE("Of a program that dies in a repeated run nothing counts") {
   CompareRow row;
   row.tolerance = 1e-4;
   solve_case(made_by(misbehaving<SolveOnceAndDie>, "a program"), loaded,
-             {.memory_MB = 0.0, .warm_seconds = 60.0}, row);
+             {.memory_MB = 0.0, .min_timing_seconds = 60.0}, row);
   CHECK(solves == 2);
   CHECK(row.verdict == Verdict::crashed);
   CHECK((row.reason.empty() && row.runs == 0 && std::isnan(row.error)));
@@ -160,7 +160,7 @@ TEST_CASE("A solve brings back its answer, its history and where it is worst") {
 
 TEST_CASE("A short solve is repeated in its child, and the fastest run counts") {
   const LoadedCase loaded = compare_cases({"known:contacts=12,bodies=6,seed=3"})[0].load();
-  const SolveLimits limits{.memory_MB = 0.0, .warm_seconds = 60.0, .most_runs = 4};
+  const SolveLimits limits{.memory_MB = 0.0, .min_timing_seconds = 60.0, .most_runs = 4};
   CompareRow row;
   row.tolerance = 1e-4;
   solve_case(made_by(find_solver("pgs").make), loaded, limits, row);

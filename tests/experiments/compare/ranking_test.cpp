@@ -80,5 +80,5 @@ TEST_CASE("Cases of a run are alike, and a phase is no family") {
   CHECK(run_of("pile-c10-s1.hdf5") == "pile-c10-s1.hdf5");
   CompareRow row;
   row.family = "shaken, active";
-  CHECK(world_of(row) == "shaken");
+  CHECK(base_family(row) == "shaken");
 }

@@ -224,14 +224,14 @@ TEST_CASE("chi^2 says whether points lie on a power law within their errors") {
       const double y = std::pow(4.0, -k) * std::exp(k == 0 || k == 3 ? by : -by);
       points.add(std::pow(2.0, k), {y, relative * y, 3});
     }
-    CHECK(points.errors_from == 8);
+    CHECK(points.error_dof == 8);
     points.add(3.0, {1.0, not_known, 1});  // a point of one sample has no error and no weight
     return misfit_of(points);
   };
   CHECK(misfit(0.0, 0.1).ratio == Approx(0.0).margin(1e-12));
   // Four residuals of one error each give chi^2 = 4 over two degrees of freedom.
   CHECK(misfit(0.1, 0.1).ratio == Approx(2.0));
-  CHECK(misfit(0.1, 0.1).p == Approx(f_p(2.0, 2, 8)));
+  CHECK(misfit(0.1, 0.1).p == Approx(f_test_p(2.0, 2, 8)));
   CHECK(misfit(0.1, 0.01).ratio == Approx(200.0));
   CHECK(misfit(0.1, 0.01).p < 1e-6);
   CHECK(std::isnan(misfit(0.0, not_known).ratio));
@@ -240,35 +240,35 @@ TEST_CASE("chi^2 says whether points lie on a power law within their errors") {
 TEST_CASE("Student's t, F and chi squared have the p and the quantiles of the tables") {
   const Published table[] = {
       // Two-sided, from Abramowitz and Stegun, table 26.10.
-      {student_p(12.706, 1), 0.05},
-      {student_p(63.657, 1), 0.01},
-      {student_p(4.303, 2), 0.05},
-      {student_p(-2.228, 10), 0.05},
-      {student_p(2.845, 20), 0.01},
-      {student_p(0.0, 5), 1.0},
+      {t_test_p(12.706, 1), 0.05},
+      {t_test_p(63.657, 1), 0.01},
+      {t_test_p(4.303, 2), 0.05},
+      {t_test_p(-2.228, 10), 0.05},
+      {t_test_p(2.845, 20), 0.01},
+      {t_test_p(0.0, 5), 1.0},
       // With one degree of freedom t is Cauchy's; with two there is a closed form.
-      {student_p(1.0, 1), 0.5, 1e-9},
-      {student_p(3.0, 2), 1.0 - 3.0 / std::sqrt(11.0), 1e-9},
+      {t_test_p(1.0, 1), 0.5, 1e-9},
+      {t_test_p(3.0, 2), 1.0 - 3.0 / std::sqrt(11.0), 1e-9},
       {student_t95(1), 12.706, 1e-4},
       {student_t95(2), 4.303, 1e-4},
       {student_t95(30), 2.042, 3e-4},
       {student_t95(120), 1.980, 3e-4},
       {student_t95(100000), 1.960, 1e-4},
-      {f_p(4.26, 2, 9), 0.05, 3e-3},
-      {f_p(10.04, 1, 10), 0.01, 3e-3},
-      {f_p(2.98, 10, 10), 0.05, 3e-3},
-      {f_p(0.0, 3, 5), 1.0},
+      {f_test_p(4.26, 2, 9), 0.05, 3e-3},
+      {f_test_p(10.04, 1, 10), 0.01, 3e-3},
+      {f_test_p(2.98, 10, 10), 0.05, 3e-3},
+      {f_test_p(0.0, 3, 5), 1.0},
       // chi^2 of 18.307 at 10 degrees of freedom, of 3.841 at 1.
-      {f_p(18.307 / 10.0, 10, unbounded), 0.05},
-      {f_p(3.841, 1, unbounded), 0.05},
-      {f_p(37.566 / 20.0, 20, unbounded), 0.01},
+      {f_test_p(18.307 / 10.0, 10, unbounded), 0.05},
+      {f_test_p(3.841, 1, unbounded), 0.05},
+      {f_test_p(37.566 / 20.0, 20, unbounded), 0.01},
       // t squared is F with one degree of freedom in the numerator.
-      {f_p(2.5 * 2.5, 1, 7), student_p(2.5, 7), 1e-9}};
+      {f_test_p(2.5 * 2.5, 1, 7), t_test_p(2.5, 7), 1e-9}};
   for (const Published& row : table) {
     INFO(row.printed);
     CHECK(row.computed == Approx(row.printed).epsilon(row.relative));
   }
-  CHECK(std::isnan(student_p(1.0, 0)));
+  CHECK(std::isnan(t_test_p(1.0, 0)));
   CHECK(std::isinf(student_t95(0)));
 }
 
@@ -305,10 +305,10 @@ TEST_CASE("Student's own pairs: the extra hours of sleep of ten patients") {
   CHECK(paired.half_width() == Approx(2.262 * paired.error).epsilon(1e-3));
   CHECK(std::isnan(sample_mean(std::vector<double>{1.0}).p()));
   // For two groups F is t^2.
-  const VarianceRatio between = difference_of(std::vector{a, b});
+  const VarianceRatio between = repeated_anova(std::vector{a, b});
   CHECK(between.ratio == Approx(4.0621 * 4.0621).epsilon(1e-4));
   CHECK(between.p == Approx(0.002833).epsilon(1e-3));
-  CHECK(std::isnan(difference_of(std::vector{a, {1.0, 2.0}}).ratio));
+  CHECK(std::isnan(repeated_anova(std::vector{a, {1.0, 2.0}}).ratio));
   CHECK(std::isnan(sample_mean(std::vector<double>{}).mean));
   const SampleMean three = sample_mean(std::vector<double>{1.0, 2.0, 3.0, not_known});
   CHECK(three.samples == 3);

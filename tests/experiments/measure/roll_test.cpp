@@ -34,21 +34,21 @@ TEST_CASE("a turn as of a rigid body goes round, with twice its angle times the 
   CHECK(roll.circulation == Approx(2.0 * angle * 0.5));
   CHECK(roll.along[0] == Approx(angle * 0.25));
   CHECK(roll.along[1] == Approx(angle * 0.5));
-  CHECK(roll.roundness() == Approx(0.5));
+  CHECK(roll.side_ratio() == Approx(0.5));
   Roll back = roll;
   back.circulation *= -1.0;
   for (double& side : back.along) side *= -1.0;
-  CHECK(back.roundness() == Approx(0.5));
+  CHECK(back.side_ratio() == Approx(0.5));
 }
 
 TEST_CASE("shear has a circulation and does not go round; a translation has none") {
   const auto shear = moved([](const Vec3& x) { return Vec3(0.01 * (x.z() - 0.5), 0, 0); });
   const Roll sheared = roll_of(shear, middle, 0.01);
   CHECK(sheared.circulation == Approx(0.01 * 0.5));
-  CHECK(sheared.roundness() == Approx(0.0).margin(1e-12));
+  CHECK(sheared.side_ratio() == Approx(0.0).margin(1e-12));
   const Roll carried = roll_of(moved([](const Vec3&) { return Vec3(1, 2, 3); }), middle, 0.01);
   CHECK(carried.circulation == Approx(0.0).margin(1e-12));
-  CHECK(carried.roundness() <= 0.0);
+  CHECK(carried.side_ratio() <= 0.0);
 }
 
 TEST_CASE("a side without a grain makes the roll not known") {
@@ -56,7 +56,7 @@ TEST_CASE("a side without a grain makes the roll not known") {
   std::erase_if(field, [](const Displacement& d) { return d.place.z() > 0.6; });
   const Roll roll = roll_of(field, middle, 0.01);
   CHECK(std::isnan(roll.circulation));
-  CHECK(std::isnan(roll.roundness()));
+  CHECK(std::isnan(roll.side_ratio()));
 }
 
 TEST_CASE("the field's cells hold the means of their grains; cells without grains are left out") {

@@ -289,7 +289,7 @@ TEST_CASE("the roll of whole periods needs frames at their ends and the box") {
       frames[f].pose.push_back(pose);
     }
   }
-  CHECK(roll_of_periods(frames, summary).roundness() > 0.0);
+  CHECK(roll_of_periods(frames, summary).side_ratio() > 0.0);
   frames.pop_back();
   CHECK(std::isnan(roll_of_periods(frames, summary).circulation));
   CHECK(std::isnan(roll_of_periods(frames, {}).circulation));

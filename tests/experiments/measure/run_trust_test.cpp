@@ -39,8 +39,8 @@ CubeRun clean_run() {
 
 TEST_CASE("a run of which nothing has to be said says that") {
   const RunSummary trust = clean_run().summary();
-  CHECK(is_clean(trust));
-  CHECK(trust_words(trust) ==
+  CHECK(has_no_findings(trust));
+  CHECK(run_findings(trust) ==
         std::vector<std::string>{
             "Every step reached the tolerance of 0.001 g h; the deepest overlap is 2 µm."});
 }
@@ -53,25 +53,25 @@ TEST_CASE("steps that missed their tolerance are counted, and more iterations na
   }
   const RunSummary trust = data.summary();
   CHECK(trust.missed == 3);
-  CHECK_FALSE(is_clean(trust));
+  CHECK_FALSE(has_no_findings(trust));
   CHECK(trust.error_max_relative == Approx(0.02));
   CHECK(trust.error_mean_relative == Approx(0.3 * 0.02 + 0.7e-4));
-  CHECK(trust_words(trust) ==
+  CHECK(run_findings(trust) ==
         std::vector<std::string>{
             "3 of 10 steps did not reach the tolerance of 0.001 g h: their error is 0.0061 g h in "
             "the mean of all steps, 0.02 in the worst. More accurate and slower: --set "
             "solver.max_iterations=1000, or --set solver.name=auto."});
   data.facts.iterations_most = 1e9;
-  CHECK_THAT(trust_words(data.summary()).at(0), Catch::Contains("max_iterations=1000000000,"));
+  CHECK_THAT(run_findings(data.summary()).at(0), Catch::Contains("max_iterations=1000000000,"));
   data.facts.seconds_most = 0.1;
-  CHECK_THAT(trust_words(data.summary()).at(0), Catch::Contains("--set solver.max_seconds=0.5,"));
+  CHECK_THAT(run_findings(data.summary()).at(0), Catch::Contains("--set solver.max_seconds=0.5,"));
   data.facts.solver = "sap";
-  CHECK_THAT(trust_words(data.summary()).at(0),
+  CHECK_THAT(run_findings(data.summary()).at(0),
              Catch::Contains("sap solves another law") && !Catch::Contains("--set"));
   data.facts.tolerance = not_known;  // the run had no tolerance
   CHECK(data.summary().missed == 0);
   CHECK(
-      trust_words(data.summary()) ==
+      run_findings(data.summary()) ==
       std::vector<std::string>{"No step was asked for a tolerance; the deepest overlap is 2 µm."});
 }
 
@@ -88,18 +88,18 @@ TEST_CASE("overlaps that can be seen are said with their time and size") {
   CubeRun data = clean_run();
   data.steps[4].penetration_max = 0.031;
   const RunSummary trust = data.summary();
-  CHECK(trust_words(trust).at(0) ==
+  CHECK(run_findings(trust).at(0) ==
         "The deepest overlap is 31 mm at t = 0.005 s, 36 % of the smallest body's radius. A "
         "smaller scene.step mends it.");
   data.facts.slop = 0.03;
-  CHECK_THAT(trust_words(data.summary()).at(0),
+  CHECK_THAT(run_findings(data.summary()).at(0),
              Catch::EndsWith("correction.slop leaves that much alone: a smaller one mends it."));
   data.facts.step = 5e-3;  // the overlap is then in the first step
   CHECK_THAT(
-      trust_words(data.summary()).at(0),
+      run_findings(data.summary()).at(0),
       Catch::EndsWith("radius. Bodies begin inside one another: the scene is to be mended."));
   data.steps[4].penetration_max = 0.8e-3;  // below 1 % of 87 mm
-  CHECK(is_clean(data.summary()));
+  CHECK(has_no_findings(data.summary()));
 }
 
 TEST_CASE("energy that contacts gave is said, and how much that is") {
@@ -108,9 +108,9 @@ TEST_CASE("energy that contacts gave is said, and how much that is") {
   const RunSummary trust = data.summary();
   CHECK(trust.energy.gained == 15.0);
   CHECK(trust.energy.moved == 15.0);  // 10 J of work and 5 J of kinetic energy
-  CHECK(trust_words(trust).at(0) ==
+  CHECK(run_findings(trust).at(0) ==
         "Energy +15 J: contacts gave it to the bodies, which no law of contact does (1e+02 % of "
         "the energy that moved). --set solver.name=auto mends it, or more iterations.");
   data.steps[7].energy_gained = 0.1;
-  CHECK(is_clean(data.summary()));
+  CHECK(has_no_findings(data.summary()));
 }

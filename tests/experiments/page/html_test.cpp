@@ -97,7 +97,7 @@ using Json = nlohmann::json;
 
 Page answering_page() {
   Page page = small_page();
-  page.answers = {.are_given = true, .with_curves = true};
+  page.answers = {.is_enabled = true, .has_charts = true};
   Panel& panel = std::get<Picture>(page.sections[2].blocks[0]).plot.panels[0];
   panel.x_label = marked("*t*  (s)");
   panel.log_y = true;
@@ -108,7 +108,7 @@ Page answering_page() {
 }
 
 TEST_CASE("curves stand in the page as numbers, and nothing in them ends their element") {
-  if (!can_answer()) return;
+  if (!has_chart_library()) return;
   const std::string html = html_of(answering_page());
   check_page(without_scripts(html));
   const Json picture = Json::parse(page_data(html)).at("pictures").at(0),
@@ -134,7 +134,7 @@ TEST_CASE("curves stand in the page as numbers, and nothing in them ends their e
 }
 
 TEST_CASE("the page's own data and modules are in it") {
-  if (!can_answer()) return;
+  if (!has_chart_library()) return;
   Page page = answering_page();
   page.answers.data = R"({"a": [1, "<b>"]})";
   page.answers.modules = {"const own = 1;\n"};
@@ -146,7 +146,7 @@ TEST_CASE("the page's own data and modules are in it") {
 TEST_CASE("without the library the page says so") {
   const std::string html = html_of(answering_page());
   CHECK((html.find("libjs-chart.js") != std::string::npos &&
-         html.find("<script") == std::string::npos) == !can_answer());
+         html.find("<script") == std::string::npos) == !has_chart_library());
 }
 
 TEST_CASE("an inlined SVG has ids of its own and nothing that points outside") {

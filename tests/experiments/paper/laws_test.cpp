@@ -43,7 +43,7 @@ Group group_of(double nu, double force, double g, double wall, const Law& law, R
   return group;
 }
 
-OneCurve curve_of_law(const Law& law) {
+MasterCurve curve_of_law(const Law& law) {
   Random random(7);
   static std::vector<RunRow> rows;  // the rows that the curve's points refer to
   rows.clear();
@@ -57,13 +57,13 @@ OneCurve curve_of_law(const Law& law) {
     groups[2].push_back(group_of(10.0, 3.0, g, 0.5, law, random, rows));
   for (const double wall : {0.1, 0.5, 1.0, 2.0})
     groups[3].push_back(group_of(10.0, 3.0, 9.81, wall, law, random, rows));
-  return one_curve(groups);
+  return fit_master_curve(groups);
 }
 
 }  // namespace
 
 TEST_CASE("a curve that bends is one curve, no line, and its base counts once") {
-  const OneCurve all = curve_of_law({-3.6, 0.85, -0.03});
+  const MasterCurve all = curve_of_law({-3.6, 0.85, -0.03});
   CHECK(all.points.size() == 6 + 4 + 3 + 3);
   CHECK(all.curve.fit.value[2] == Approx(-0.03).margin(0.01));
   CHECK(all.curve_misfit.p > 0.05);
@@ -80,7 +80,7 @@ TEST_CASE("a curve that bends is one curve, no line, and its base counts once") 
 TEST_CASE("a law that Eq. 3 does not group is seen") {
   // An exponent of f_max that is not Eq. 3's turns its series about the base and is no offset.
   CHECK(curve_of_law({-3.6, 0.85, 0.0, 0.8}).curve_misfit.p < 1e-3);
-  const OneCurve shifted = curve_of_law({-3.6, 0.85, 0.0, 0.0, 0.4});
+  const MasterCurve shifted = curve_of_law({-3.6, 0.85, 0.0, 0.0, 0.4});
   CHECK(shifted.offsets.p < 1e-3);
   CHECK(shifted.largest_offset == Approx(0.4).margin(4.0 * shifted.offset_error));
   CHECK(shifted.curve_misfit.p < 1e-3);

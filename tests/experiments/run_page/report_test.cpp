@@ -309,12 +309,13 @@ TEST_CASE("what makes a run again and what comes next can be pasted in any folde
   data.scene_text = "[scene]\n";
   const std::string folder = std::filesystem::absolute(data.folder).string();
   CHECK_THAT(reproduce_commands(data),
-             Catch::Contains(shell_line({own_program().string(), "run", folder + "/scene.toml",
+             Catch::Contains(shell_line({executable_path().string(), "run", folder + "/scene.toml",
                                          "--output", folder + "-again"})));
   data.scene_text.clear();  // leaves nothing to run again
   CHECK_THAT(reproduce_commands(data), !Catch::Contains("run"));
   for (const bool has_grains : {false, true})
-    CHECK_THAT(next_commands(has_grains), Catch::Contains(shell_word(own_program().string())));
+    CHECK_THAT(next_commands(has_grains),
+               Catch::Contains(shell_quoted(executable_path().string())));
 }
 
 }  // namespace

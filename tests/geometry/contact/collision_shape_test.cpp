@@ -48,7 +48,7 @@ TEST_CASE("tables agree with the polyhedron they come from") {
     REQUIRE(shape.vertices().count() == polyhedron.vertex_count());
     const int vertices = shape.vertices().count(), edges = shape.edge_count();
     CHECK(vertices - edges + shape.faces().count() == 2);
-    CHECK(shape.bounds().unevenness <= small);
+    CHECK(shape.bounds().planarity_error <= small);
     for (int f = 0; f < shape.faces().count(); ++f) {
       const Vec3 normal = shape.faces().xyz(f);
       CHECK(normal.norm() == Approx(1.0).epsilon(1e-14));

@@ -59,7 +59,8 @@ TEST_CASE("the travel bounds how far any point of a body has moved since the fir
   DetectedBodies bodies(packing.shapes);
   const std::vector<Pose> start = packing.poses;
   bodies.take(start, packing.reach);
-  for (const Travel& travel : bodies.travel) CHECK((travel.shift == 0.0 && travel.turn == 0.0));
+  for (const MotionBound& travel : bodies.travel)
+    CHECK((travel.shift == 0.0 && travel.turn == 0.0));
   std::vector<std::vector<Pose>> path;  // outlives the calls
   for (int k = 0; k < 30; ++k) {
     packing.move(1e-3);
@@ -70,7 +71,7 @@ TEST_CASE("the travel bounds how far any point of a body has moved since the fir
   for (int i = 0; i < bodies.count(); ++i) {
     CHECK(bodies.rotations[i] == packing.poses[i].rotation.toRotationMatrix());
     if (!bodies.shape(i)) continue;
-    const Travel& travel = bodies.travel[i];
+    const MotionBound& travel = bodies.travel[i];
     double farthest = 0.0;
     for (const Vec3& vertex : bodies.shapes[i].polyhedron->vertices())
       farthest = std::max(farthest, (packing.poses[i] * vertex - start[i] * vertex).norm());

@@ -65,9 +65,9 @@ TEST_CASE("a remembered pair says what the tables say, bit for bit, or nothing")
     const auto look = remembered.look(moved.pair(), 3.0 + chord, limits, manifold, axis, points);
     const Known after = ask_tables(moved.pair(), before.axis.feature, limits);
     const Known fresh = ask_tables(moved.pair(), {}, limits);
-    if (look == TouchingPair::Look::undecided) {
+    if (look == TouchingPair::PairOutcome::undecided) {
       ++undecided;
-    } else if (look == TouchingPair::Look::apart) {
+    } else if (look == TouchingPair::PairOutcome::apart) {
       ++apart;
       if (after.outcome != AxisOutcome::separated_by_hint ||
           after.axis.separation != axis.separation)

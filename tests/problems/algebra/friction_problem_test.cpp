@@ -192,16 +192,16 @@ TEST_CASE("a stored operator may be unsymmetric, by more than some per cent") {
 TEST_CASE("known masses are not looked at again, others and all the rest are") {
   const FrictionProblem good = make_known_solution({.contacts = 20}).problem;
   KnownMasses valid;
-  CHECK_FALSE(valid.are_of(good.dynamics));
+  CHECK_FALSE(valid.has_masses_of(good.dynamics));
   good.validate(&valid);
-  REQUIRE(valid.are_of(good.dynamics));
+  REQUIRE(valid.has_masses_of(good.dynamics));
   good.validate(&valid);
   const auto refuses = [&](const std::function<void(FrictionProblem&)>& harm, bool same_masses) {
     FrictionProblem other = good;
     harm(other);
-    CHECK(valid.are_of(other.dynamics) == same_masses);
+    CHECK(valid.has_masses_of(other.dynamics) == same_masses);
     CHECK_THROWS_AS(other.validate(&valid), InvalidProblem);
-    CHECK(valid.are_of(good.dynamics));
+    CHECK(valid.has_masses_of(good.dynamics));
   };
   refuses([](auto& p) { p.dynamics.mass[0] = -1.0; }, false);
   refuses([](auto& p) { p.dynamics.dof_begin.back() += 1; }, false);
@@ -211,5 +211,5 @@ TEST_CASE("known masses are not looked at again, others and all the rest are") {
   // Changes one mass by its last bit.
   FrictionProblem other = good;
   other.dynamics.mass[0] = std::nextafter(other.dynamics.mass[0], 1e30);
-  CHECK_FALSE(valid.are_of(other.dynamics));
+  CHECK_FALSE(valid.has_masses_of(other.dynamics));
 }

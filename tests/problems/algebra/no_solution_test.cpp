@@ -12,7 +12,7 @@ using namespace ballast;
 
 TEST_CASE("two bodies that nothing can move and that approach have no solution") {
   const FrictionProblem problem = immovable_contact(-1.0);
-  const NoSolution proof = look_for_no_solution(problem, Impulses::Zero(3));
+  const NoSolutionProof proof = prove_no_solution(problem, Impulses::Zero(3));
   CHECK(proof.proved());
   CHECK(std::isinf(proof.least_impulse));
   CHECK(proof.approach == 1.0);
@@ -21,18 +21,18 @@ TEST_CASE("two bodies that nothing can move and that approach have no solution")
   // A contact that moves sideways only.
   FrictionProblem sideways = immovable_contact(-1.0);
   sideways.delassus.w.coeffRef(1, 1) = sideways.delassus.w.coeffRef(2, 2) = 1.0;
-  CHECK(look_for_no_solution(sideways, Impulses::Zero(3)).proved());
-  CHECK_FALSE(look_for_no_solution(immovable_contact(0.5), Impulses::Zero(3)).proved());
+  CHECK(prove_no_solution(sideways, Impulses::Zero(3)).proved());
+  CHECK_FALSE(prove_no_solution(immovable_contact(0.5), Impulses::Zero(3)).proved());
 }
 
 TEST_CASE("a body between two walls that close has no solution; sweeps find the proof") {
-  const NoSolution proof = look_for_no_solution(squeezed_contacts(), Impulses::Zero(6));
+  const NoSolutionProof proof = prove_no_solution(squeezed_contacts(), Impulses::Zero(6));
   CHECK(proof.proved());
   CHECK(proof.contacts == 2);
   CHECK(proof.approach == Approx(1.0));
   // Impulses of a diverging solver prove it too.
   const Impulses r = (1e12 * Impulses::Unit(6, 0)) + (1e12 + 1.0) * Impulses::Unit(6, 3);
-  CHECK(look_for_no_solution(squeezed_contacts(), r, 0).proved());
+  CHECK(prove_no_solution(squeezed_contacts(), r, 0).proved());
 }
 
 TEST_CASE("a heavy body on a light one is no problem without solution, however heavy") {
@@ -51,8 +51,8 @@ TEST_CASE("a heavy body on a light one is no problem without solution, however h
     d.v_free = Eigen::Vector2d(-0.01, -0.01);
     d.bias = Eigen::Vector2d::Zero();
     INFO("of " << heavy << " kg");
-    CHECK_FALSE(look_for_no_solution(problem, Impulses::Zero(2)).proved());
-    CHECK_FALSE(look_for_no_solution(problem, Eigen::Vector2d(1.0 + heavy, heavy)).proved());
+    CHECK_FALSE(prove_no_solution(problem, Impulses::Zero(2)).proved());
+    CHECK_FALSE(prove_no_solution(problem, Eigen::Vector2d(1.0 + heavy, heavy)).proved());
   }
 }
 
@@ -63,20 +63,20 @@ TEST_CASE("a stiff W without bodies that hardly sees some weights proves nothing
   w.topRightCorner(3, 3) = w.bottomLeftCorner(3, 3) = -k * Eigen::Matrix3d::Identity();
   w.topLeftCorner(3, 3) += Eigen::Matrix3d::Identity();
   const FrictionProblem problem = stored_problem({0.5, 0.5}, w, -Impulses::Unit(6, 3));
-  CHECK_FALSE(look_for_no_solution(problem, Impulses::Zero(6)).proved());
+  CHECK_FALSE(prove_no_solution(problem, Impulses::Zero(6)).proved());
   const Impulses r = Impulses::Unit(6, 0) + Impulses::Unit(6, 3);
-  CHECK_FALSE(look_for_no_solution(problem, r).proved());
+  CHECK_FALSE(prove_no_solution(problem, r).proved());
 }
 
 TEST_CASE("a proof below some size does not say that there is no solution") {
-  NoSolution proof{.least_impulse = 1e9, .least_growth = 1e9, .approach = 1.0, .contacts = 1};
+  NoSolutionProof proof{.least_impulse = 1e9, .least_growth = 1e9, .approach = 1.0, .contacts = 1};
   CHECK(proof.words() ==
         "no impulses of a sensible size are a solution: contact 0 sinks in at 1 m/s whatever "
         "impulses below 1e+09 N s do");
 }
 
 TEST_CASE("no proof is searched when the time is over") {
-  CHECK_FALSE(look_for_no_solution(squeezed_contacts(), Impulses::Zero(6), 500, 0.0).proved());
+  CHECK_FALSE(prove_no_solution(squeezed_contacts(), Impulses::Zero(6), 500, 0.0).proved());
 }
 
 TEST_CASE("a heavy body elsewhere hides no proof") {
@@ -94,7 +94,7 @@ TEST_CASE("a heavy body elsewhere hides no proof") {
   d.h_begin = {0, 1, 2, 3};
   d.v_free = Eigen::Vector2d(0.0, -1.0);
   d.bias = Eigen::Vector3d(-1.0, -1.0, 0.0);
-  CHECK(look_for_no_solution(problem, Impulses::Zero(3)).proved());
+  CHECK(prove_no_solution(problem, Impulses::Zero(3)).proved());
 }
 
 TEST_CASE("what weights prove is what dense matrices say") {
@@ -107,8 +107,8 @@ TEST_CASE("what weights prove is what dense matrices say") {
   for (int c = 0; c < problem.contact_count(); ++c) {
     // Without sweeps the weights are the normal impulses.
     const int row = problem.row_begin[c];
-    const NoSolution proof =
-        look_for_no_solution(problem, 2.5 * Impulses::Unit(problem.row_count(), row), 0);
+    const NoSolutionProof proof =
+        prove_no_solution(problem, 2.5 * Impulses::Unit(problem.row_count(), row), 0);
     if (q[row] >= 0.0) {
       CHECK(proof.least_impulse == 0.0);
       continue;
@@ -123,7 +123,7 @@ TEST_CASE("what weights prove is what dense matrices say") {
 TEST_CASE("problems with a solution are never proved to have none") {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
     const KnownSolution known = make_known_solution({.seed = seed});
-    const NoSolution proof = look_for_no_solution(known.problem, known.r);
+    const NoSolutionProof proof = prove_no_solution(known.problem, known.r);
     CHECK_FALSE(proof.proved());
     CHECK(proof.least_impulse <= known.r.norm());
     CHECK(proof.words().empty());
@@ -131,6 +131,6 @@ TEST_CASE("problems with a solution are never proved to have none") {
   for (const StressProblem& stress : stress_problems()) {
     CAPTURE(stress.name);
     CHECK_FALSE(
-        look_for_no_solution(stress.problem, Impulses::Zero(stress.problem.row_count())).proved());
+        prove_no_solution(stress.problem, Impulses::Zero(stress.problem.row_count())).proved());
   }
 }

@@ -8,9 +8,9 @@
 using namespace ballast;
 
 TEST_CASE("a course says where and how fast, between and beyond the rows of its table") {
-  const Course<double> course{2.0, 0.5, 3.0, {{1.0, 0.0}, {2.0, 4.0}, {4.0, 3.0}}};
+  const TimeFunction<double> course{2.0, 0.5, 3.0, {{1.0, 0.0}, {2.0, 4.0}, {4.0, 3.0}}};
   const auto table = [&](double t) {
-    const Course<double> rest{2.0, 0.5, 3.0};
+    const TimeFunction<double> rest{2.0, 0.5, 3.0};
     return course.at(t) - rest.at(t);
   };
   CHECK(table(0.5) == 0.0);
@@ -19,7 +19,7 @@ TEST_CASE("a course says where and how fast, between and beyond the rows of its 
   CHECK(table(9.0) == Approx(3.0));
   for (const double t : {0.3, 1.2, 2.5, 3.9, 7.0})
     CHECK(course.rate_at(t) == Approx((course.at(t + 1e-6) - course.at(t - 1e-6)) / 2e-6));
-  CHECK(Course<double>{0.0, 1.0, 0.5}.at(1.0) == Approx(2.0));  // half a swing
+  CHECK(TimeFunction<double>{0.0, 1.0, 0.5}.at(1.0) == Approx(2.0));  // half a swing
 }
 
 TEST_CASE("points of a body that is shifted and turned move as its poses say") {

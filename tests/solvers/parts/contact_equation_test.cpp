@@ -61,18 +61,18 @@ TEST_CASE("derivatives of the contact equations, by differences") {
       const double mu = i % 7 == 0 ? 0.0 : random.uniform(0.1, 1.5), rho = random.uniform(0.2, 5.0);
       const Vector3d r = random_vector(random, 1.0), u = random_vector(random, 1.0);
       const ContactLinearisation l = linearise(equation, r, u, mu, rho);
-      Matrix3d by_r, by_u;
+      Matrix3d df_dr, df_du;
       for (int k = 0; k < 3; ++k) {
         const Vector3d e = step * Vector3d::Unit(k);
-        by_r.col(k) =
+        df_dr.col(k) =
             (linearise(equation, r + e, u, mu, rho).f - linearise(equation, r - e, u, mu, rho).f) /
             (2.0 * step);
-        by_u.col(k) =
+        df_du.col(k) =
             (linearise(equation, r, u + e, mu, rho).f - linearise(equation, r, u - e, mu, rho).f) /
             (2.0 * step);
       }
-      rough += (by_r - l.by_r).norm() > 1e-4 * (1.0 + by_r.norm()) ||
-               (by_u - l.by_u).norm() > 1e-4 * (1.0 + by_u.norm());
+      rough += (df_dr - l.df_dr).norm() > 1e-4 * (1.0 + df_dr.norm()) ||
+               (df_du - l.df_du).norm() > 1e-4 * (1.0 + df_du.norm());
     }
     CHECK(rough <= 5);
   }

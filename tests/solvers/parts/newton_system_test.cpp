@@ -11,7 +11,7 @@ using namespace ballast;
 namespace {
 
 /// Blocks without a pattern that are regular together with alpha. The share `idle` of the contacts
-/// has by_u = 0.
+/// has df_du = 0.
 std::vector<ContactLinearisation> some_blocks(const FrictionProblem& problem, double idle = 0.0) {
   std::vector<ContactLinearisation> linear(problem.contact_count());
   double next = 0.41;  // logistic map
@@ -19,20 +19,20 @@ std::vector<ContactLinearisation> some_blocks(const FrictionProblem& problem, do
   for (int c = 0; c < problem.contact_count(); ++c) {
     ContactLinearisation& l = linear[c];
     for (double& x : l.f) x = number();
-    for (double& x : l.by_r.reshaped()) x = 0.3 * number();
-    for (double& x : l.by_u.reshaped()) x = 0.3 * number();
-    l.by_r.diagonal().array() += 1.0;
-    l.by_u.diagonal().array() += 1.0;
-    if (number() + 0.5 < idle) l.by_u.setZero();
+    for (double& x : l.df_dr.reshaped()) x = 0.3 * number();
+    for (double& x : l.df_du.reshaped()) x = 0.3 * number();
+    l.df_dr.diagonal().array() += 1.0;
+    l.df_du.diagonal().array() += 1.0;
+    if (number() + 0.5 < idle) l.df_du.setZero();
     if (problem.contact_rows(c) == 3) continue;
     l.f.tail<2>().setZero();  // one row: padded
-    l.by_r = Eigen::Vector3d(l.by_r(0, 0), 1.0, 1.0).asDiagonal();
-    l.by_u = Eigen::Vector3d(l.by_u(0, 0), 0.0, 0.0).asDiagonal();
+    l.df_dr = Eigen::Vector3d(l.df_dr(0, 0), 1.0, 1.0).asDiagonal();
+    l.df_du = Eigen::Vector3d(l.df_du(0, 0), 0.0, 0.0).asDiagonal();
   }
   return linear;
 }
 
-/// The norm of (by_r + by_u (W + alpha)) dr + f, by dense matrices.
+/// The norm of (df_dr + df_du (W + alpha)) dr + f, by dense matrices.
 double residual(const FrictionProblem& problem, const Eigen::MatrixXd& w,
                 const std::vector<ContactLinearisation>& linear, const std::vector<double>& alpha,
                 const Impulses& dr) {
@@ -41,8 +41,8 @@ double residual(const FrictionProblem& problem, const Eigen::MatrixXd& w,
   for (int c = 0; c < problem.contact_count(); ++c) {
     const int begin = problem.row_begin[c], rows = problem.contact_rows(c);
     const Eigen::VectorXd r = dr.segment(begin, rows), u = du.segment(begin, rows);
-    const Eigen::VectorXd left = linear[c].by_r.topLeftCorner(rows, rows) * r +
-                                 linear[c].by_u.topLeftCorner(rows, rows) * (u + alpha[c] * r) +
+    const Eigen::VectorXd left = linear[c].df_dr.topLeftCorner(rows, rows) * r +
+                                 linear[c].df_du.topLeftCorner(rows, rows) * (u + alpha[c] * r) +
                                  linear[c].f.head(rows);
     sum += left.squaredNorm();
   }
@@ -90,7 +90,7 @@ TEST_CASE("contacts like springs: dr = source - gain du with du = W dr", "[facto
     NewtonSystem system;
     system.prepare(op);
     std::vector<Eigen::Matrix3d> gain;
-    for (const ContactLinearisation& block : blocks) gain.push_back(block.by_u);
+    for (const ContactLinearisation& block : blocks) gain.push_back(block.df_du);
     const Impulses source = Impulses::LinSpaced(problem.row_count(), -1.0, 3.0);
     for (const double enough : {0.0, 1e-10}) {
       Impulses dr = source;
@@ -129,11 +129,11 @@ TEST_CASE("a singular system is said to be so; a stored W does without alpha", "
     NewtonSystem system;
     system.prepare(op);
     Impulses dr;
-    const auto solves = [&](const Eigen::Matrix3d& by_u, double alpha) {
-      const std::vector<ContactLinearisation> all(3, {Eigen::Vector3d::Ones(), zero, by_u});
+    const auto solves = [&](const Eigen::Matrix3d& df_du, double alpha) {
+      const std::vector<ContactLinearisation> all(3, {Eigen::Vector3d::Ones(), zero, df_du});
       return system.solve(op, all, std::vector<double>(3, alpha), dr);
     };
-    // Sticking contacts: by_r = 0, and B = alpha by_u is singular for alpha = 0.
+    // Sticking contacts: df_dr = 0, and B = alpha df_du is singular for alpha = 0.
     CHECK(solves(one, 0.0) == problem.has_delassus);
     CHECK_FALSE(solves(zero, 0.1));
   }

@@ -22,7 +22,7 @@ constexpr double epsilon = 1e-2, friction = 0.5, rho = 0.5;
 
 TEST_CASE("where u_N = 0 the step is Newton's on Alart and Curnier's function") {
   // There the two radii of the disc, mu r_N and mu z_N, are equal. dr solves
-  //   F + by_r dr + by_u (du + epsilon_c dr) = 0.
+  //   F + df_dr dr + df_du (du + epsilon_c dr) = 0.
   Random random(7);
   int slips = 0, sticks = 0;
   for (int k = 0; k < 400; ++k) {
@@ -33,7 +33,7 @@ TEST_CASE("where u_N = 0 the step is Newton's on Alart and Curnier's function") 
     const RegularStep step = regular_step(friction, rho, epsilon, r, u);
     const ContactLinearisation l = linearise(ContactEquation::alart_curnier, r, u, friction, rho);
     const Vector3d dr = step.source - step.gain * du;
-    const Vector3d left = l.f + l.by_r * dr + l.by_u * (du + epsilon / rho * dr);
+    const Vector3d left = l.f + l.df_dr * dr + l.df_du * (du + epsilon / rho * dr);
     CHECK(left.norm() < 1e-12);
     slips += step.status == ContactStatus::slip;
     sticks += step.status == ContactStatus::stick;

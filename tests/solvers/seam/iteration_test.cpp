@@ -19,7 +19,7 @@ Solved run(const Budget& budget, const CheckSchedule& schedule, Error error_at) 
   Iteration iteration(budget, schedule);
   iteration.evaluated(error_at(0), {});
   while (iteration.next())
-    if (iteration.error_due()) iteration.evaluated(error_at(iteration.count()), {});
+    if (iteration.is_error_due()) iteration.evaluated(error_at(iteration.count()), {});
   return iteration.finish({});
 }
 

@@ -18,7 +18,7 @@ namespace {
 /// A problem, its solution in the rows that can move, and a loop over rounds.
 struct Trial {
   KnownSolution known = make_known_solution({.bodies = 10, .contacts = 8});
-  MovingContacts moving;
+  ReducedProblem moving;
   Eigen::VectorXd exact;
 
   Trial() {
@@ -147,7 +147,7 @@ TEST_CASE("rounds stop on Siconos' measure where the budget asks for it") {
 
 TEST_CASE("the contacts that move, as the dense operator has them") {
   const FrictionProblem problem = oracle::mixed_problem();  // contact 4 cannot move
-  MovingContacts moving;
+  ReducedProblem moving;
   moving.take(problem);
   CHECK(moving.contact == std::vector<int>{0, 1, 2, 3, 5, 6});
   CHECK(moving.row_begin == std::vector<int>{0, 3, 6, 7, 10, 13, 14});
@@ -173,7 +173,7 @@ TEST_CASE("the contacts that move, as the dense operator has them") {
 
 TEST_CASE("impulses there and back: what moves stays, what does not becomes zero") {
   FrictionProblem problem = oracle::mixed_problem();
-  MovingContacts moving;
+  ReducedProblem moving;
   moving.take(problem);
   const Impulses r = Impulses::LinSpaced(problem.row_count(), 1.0, 2.0);
   Eigen::VectorXd x;
