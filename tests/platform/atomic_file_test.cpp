@@ -224,7 +224,7 @@ class Holder {
 
 }  // namespace
 
-TEST_CASE("one holder at a time, who is named to the others; the lock's file goes with it") {
+TEST_CASE("one holder at a time, who is named to the others, the lock's file goes with it") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "lock";
   for (int k = 0; k < 2; ++k) {

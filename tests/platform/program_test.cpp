@@ -109,7 +109,7 @@ TEST_CASE("a child that is no longer wanted is killed, and one that is wanted an
   CHECK(run_in_child(60.0, slow, [] { return false; }).answer == "slow");
 }
 
-TEST_CASE("what the parent has is not touched; the child prints nowhere and may be lost") {
+TEST_CASE("what the parent has is not touched, the child prints nowhere and may be lost") {
   int here = 1;
   const ChildResult result = run_in_child(60.0, [&] {
     std::puts("program_test: this line must not be seen");

@@ -91,7 +91,7 @@ TEST_CASE("a log goes on after the rows that are kept") {
   }
 }
 
-TEST_CASE("the unsafe end may be cut off or damaged anywhere; a safe row may not") {
+TEST_CASE("the unsafe end may be cut off or damaged anywhere, a safe row may not") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "log";
   write_rows(file, 5, 3);

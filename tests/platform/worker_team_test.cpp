@@ -34,7 +34,7 @@ TEST_CASE("every part is done once in every task, by whatever team") {
   CHECK(visits(nullptr, 17, 3) == std::vector<int>(17, 3));
 }
 
-TEST_CASE("members have parts that follow each other; only the caller takes those of others") {
+TEST_CASE("members have parts that follow each other, only the caller takes those of others") {
   for (const int threads : {2, 3, 5}) {
     WorkerTeam team;
     team.resize(threads);

@@ -23,7 +23,7 @@ Packing deposited(const Scene& scene, const fs::path& part, std::vector<BoxStage
 
 }  // namespace
 
-TEST_CASE("a deposit rains, presses and settles; its grains then lie in the box at rest") {
+TEST_CASE("a deposit rains, presses and settles, its grains then lie in the box at rest") {
   const TemporaryFolder folder;
   const Scene scene = small_box();
   std::vector<BoxStage> stages;

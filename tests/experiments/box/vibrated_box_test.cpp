@@ -55,7 +55,7 @@ TEST_CASE("a packing's key knows what the deposit depends on, and nothing of the
   }
 }
 
-TEST_CASE("an edited mesh makes another packing; its name and its time stamp do not") {
+TEST_CASE("an edited mesh makes another packing, its name and its time stamp do not") {
   const TemporaryFolder folder;
   const fs::path mesh = folder.path() / "grain.obj";
   write_box(mesh, Vec3(1, 2, 3));

@@ -188,7 +188,7 @@ TEST_CASE("a proportion through the origin is the geometric mean of the ratios")
   CHECK(fit.spread == Approx(std::exp(std::log(2.0) / std::sqrt(3.0))));
 }
 
-TEST_CASE("Eq. 5 is found again, with an interval around its corner; its gain may be given") {
+TEST_CASE("Eq. 5 is found again, with an interval around its corner, its gain may be given") {
   const std::vector<double> nu{1, 2, 3, 5, 7, 10, 15, 20, 30, 60};
   Random random(5);
   const double gain = 0.0025, critical = 9.0;

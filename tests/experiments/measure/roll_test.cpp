@@ -41,7 +41,7 @@ TEST_CASE("a turn as of a rigid body goes round, with twice its angle times the 
   CHECK(back.side_ratio() == Approx(0.5));
 }
 
-TEST_CASE("shear has a circulation and does not go round; a translation has none") {
+TEST_CASE("shear has a circulation and does not go round, a translation has none") {
   const auto shear = moved([](const Vec3& x) { return Vec3(0.01 * (x.z() - 0.5), 0, 0); });
   const Roll sheared = roll_of(shear, middle, 0.01);
   CHECK(sheared.circulation == Approx(0.01 * 0.5));
@@ -59,7 +59,7 @@ TEST_CASE("a side without a grain makes the roll not known") {
   CHECK(std::isnan(roll.side_ratio()));
 }
 
-TEST_CASE("the field's cells hold the means of their grains; cells without grains are left out") {
+TEST_CASE("the field's cells hold the means of their grains, cells without grains are left out") {
   const auto cells = cell_means(std::vector<Displacement>{{Vec3(0.1, 0, 0.6), Vec3(1, 0, 2)},
                                                           {Vec3(0.2, 0, 0.7), Vec3(3, 0, 2)},
                                                           {Vec3(5, 0, 0), Vec3(9, 9, 9)}},

@@ -43,7 +43,7 @@ TEST_CASE("a picture for pages that show its file is on white, its script gone")
   CHECK(std::distance(fs::directory_iterator(figures), fs::directory_iterator()) == 1);
 }
 
-TEST_CASE("what cannot be drawn is dropped and said; what has no panel is dropped") {
+TEST_CASE("what cannot be drawn is dropped and said, what has no panel is dropped") {
   const TemporaryFolder folder;
   Picture wrong = picture("wrong"), bare = picture("bare");
   wrong.plot.panels[0].curves[0].y.assign(2, std::nan(""));

@@ -89,7 +89,7 @@ TEST_CASE("labels cannot run commands or end their string") {
   CHECK_THAT(svg, Contains("system("));
 }
 
-TEST_CASE("styles of a label are gnuplot's; what is no style is no markup of gnuplot either") {
+TEST_CASE("styles of a label are gnuplot's, what is no style is no markup of gnuplot either") {
   const auto label = [](const page::Text& text) {
     return between(gnuplot_script(simple_figure(text)), "set ylabel ", "\n");
   };

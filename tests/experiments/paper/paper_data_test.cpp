@@ -117,7 +117,7 @@ TEST_CASE("rows of another campaign are counted, and drawn where no run stands i
   CHECK(data.settings(frequencies).size() == 2);
 }
 
-TEST_CASE("targets are sections and stages; an unknown one is refused with what there is") {
+TEST_CASE("targets are sections and stages, an unknown one is refused with what there is") {
   const TemporaryFolder folder;
   const PaperData data = with_rows(folder, {}, {});
   const std::vector<std::string> targets = paper_targets(data.campaign());

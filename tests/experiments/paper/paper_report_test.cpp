@@ -36,7 +36,7 @@ TEST_CASE("records that follow Eq. 3 and Eq. 5 are found to do so, from the fold
           Approx(PaperLaw{}.prefactor).epsilon(0.03));  // 41 steps in the fastest stroke
 }
 
-TEST_CASE("partial data give partial figures and a loud note; no data give a report as well") {
+TEST_CASE("partial data give partial figures and a loud note, no data give a report as well") {
   TemporaryFolder folder;
   PaperData nothing = written(folder.path(), {});
   const auto empty = make_sections(nothing, "all");

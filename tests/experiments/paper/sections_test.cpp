@@ -4,7 +4,7 @@
 
 using namespace ballast;
 
-TEST_CASE("a figure's data are its panels and curves, row by row; empty where nothing is known") {
+TEST_CASE("a figure's data are its panels and curves, row by row, empty where nothing is known") {
   Figure figure;
   figure.panels.resize(1);
   figure.panels[0].x_label = "t, s";

@@ -139,7 +139,7 @@ TEST_CASE("the time limit stops a plan with checkpoints, and the same command go
   CHECK(result.succeeded());
 }
 
-TEST_CASE("SIGTERM stops every run with a checkpoint; meanwhile nobody else runs a plan there") {
+TEST_CASE("SIGTERM stops every run with a checkpoint, meanwhile nobody else runs a plan there") {
   const TemporaryFolder folder;
   const fs::path results = folder.path() / "results", log = folder.path() / "log";
   const fs::path file =

@@ -94,7 +94,7 @@ TEST_CASE("packings come first, both longest first, and each run waits for its o
                                     "--continue", "--no-report"});
 }
 
-TEST_CASE("what is there is not made again; one run under two names is one task") {
+TEST_CASE("what is there is not made again, one run under two names is one task") {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "packings");
   put_bytes(folder.path() / "packings" / "packing-p.bin", "there");

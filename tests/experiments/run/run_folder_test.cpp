@@ -76,7 +76,7 @@ void begin(const RunFolder& folder, const std::string& scene, bool overwrite = f
 
 }  // namespace
 
-TEST_CASE("a fresh run refuses a folder with a run; overwriting clears what a run writes alone") {
+TEST_CASE("a fresh run refuses a folder with a run, overwriting clears what a run writes alone") {
   const TemporaryFolder place;
   const RunFolder folder(place.path() / "new" / "run");
   CHECK_FALSE(folder.has_run());

@@ -78,7 +78,7 @@ TEST_CASE("1 incline: sticks up to tan(theta) = mu and no further") {
 }
 
 TEST_CASE(
-    "2 stick-slip: the scheme's own sum at every step; stop time and displacement at first order "
+    "2 stick-slip: the scheme's own sum at every step, stop time and displacement at first order "
     "in h") {
   struct Stop {
     double time = 0.0, displacement = 0.0;

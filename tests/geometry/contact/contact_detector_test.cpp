@@ -343,7 +343,7 @@ TEST_CASE("impulses are carried as the definition says") {
   CHECK(moved > 1000);
 }
 
-TEST_CASE("same contacts, same impulses, bit by bit; nothing to nothing") {
+TEST_CASE("same contacts, same impulses, bit by bit, nothing to nothing") {
   Random random(3);
   const auto contacts = random_contacts(random, 50, 9);
   const auto impulses = random_impulses(random, contacts.size());

@@ -41,7 +41,7 @@ TEST_CASE("detection in parts finds the same contacts, bit by bit, and counts th
   }
 }
 
-TEST_CASE("bodies of one polyhedron share its tables; planes have none") {
+TEST_CASE("bodies of one polyhedron share its tables, planes have none") {
   const Polyhedron small = make_box(Vec3(1, 1, 1)), large = make_box(Vec3(2, 2, 2));
   const DetectedBodies bodies(
       {{&large, {}, false}, ContactShape{}, {&small, {}, false}, {&large, {}, false}});

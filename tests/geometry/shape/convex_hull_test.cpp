@@ -82,7 +82,7 @@ TEST_CASE("a cube's corners give six quadrilaterals, in any orientation") {
   }
 }
 
-TEST_CASE("points inside, on edges and on faces, and duplicates are dropped; the order is kept") {
+TEST_CASE("points inside, on edges and on faces, and duplicates are dropped, the order is kept") {
   const std::vector<Vec3> corners = cube_corners();
   std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.5, -0.5, 1}};
   points.insert(points.end(), corners.begin(), corners.end());
@@ -115,7 +115,7 @@ TEST_CASE("faces agree with the definition of a hull") {
   }
 }
 
-TEST_CASE("the same points give the same bits; their order changes only the numbering") {
+TEST_CASE("the same points give the same bits, their order changes only the numbering") {
   Random random(4);
   std::vector<Vec3> points;
   for (int i = 0; i < 40; ++i) points.push_back(random_direction(random));

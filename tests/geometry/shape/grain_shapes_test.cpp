@@ -56,7 +56,7 @@ TEST_CASE("two thousand grains stay within the paper's ranges and look like ball
   CHECK((flatness > 0.5 && flatness < 0.75));
 }
 
-TEST_CASE("same seed, same grain; another seed, another grain") {
+TEST_CASE("same seed, same grain, another seed, another grain") {
   for (int seed = 0; seed < 50; ++seed) {
     CHECK(same_bits(make_grain({}, 0.02, seed), make_grain({}, 0.02, seed)));
     CHECK_FALSE(same_bits(make_grain({}, 0.02, seed), make_grain({}, 0.02, seed + 1)));

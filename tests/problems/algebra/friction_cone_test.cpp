@@ -88,7 +88,7 @@ TEST_CASE("the natural map vanishes exactly on the law, for every rho") {
   CHECK(modified_velocity({1, 3, 4}, 0.5) == Vector3d(3.5, 3, 4));
 }
 
-TEST_CASE("A root mean square is of single values, squares and parts alike; of nothing zero") {
+TEST_CASE("A root mean square is of single values, squares and parts alike, of nothing zero") {
   RootMeanSquare whole, part, other;
   CHECK(whole.value() == 0.0);
   for (const double value : {1.0, -2.0, 4.0}) whole.add(value);

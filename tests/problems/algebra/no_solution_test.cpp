@@ -25,7 +25,7 @@ TEST_CASE("two bodies that nothing can move and that approach have no solution")
   CHECK_FALSE(prove_no_solution(immovable_contact(0.5), Impulses::Zero(3)).proved());
 }
 
-TEST_CASE("a body between two walls that close has no solution; sweeps find the proof") {
+TEST_CASE("a body between two walls that close has no solution, sweeps find the proof") {
   const NoSolutionProof proof = prove_no_solution(squeezed_contacts(), Impulses::Zero(6));
   CHECK(proof.proved());
   CHECK(proof.contacts == 2);

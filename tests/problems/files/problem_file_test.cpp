@@ -57,7 +57,7 @@ TEST_CASE("one-row contacts become frictionless ones of three rows, with tangent
   }
 }
 
-TEST_CASE("triplets have the column in p and the row in i; longer arrays than nz are allowed") {
+TEST_CASE("triplets have the column in p and the row in i, longer arrays than nz are allowed") {
   const Folder folder;
   const fs::path file = folder / "triplets.hdf5";
   FrictionProblem problem = only_delassus(small().problem);

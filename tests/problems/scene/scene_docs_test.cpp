@@ -133,7 +133,7 @@ std::vector<std::string> wrong_values(const std::string& expected) {
 
 }  // namespace
 
-TEST_CASE("each key's unit, default and range are those of the manual; other values are refused") {
+TEST_CASE("each key's unit, default and range are those of the manual, other values are refused") {
   const TemporaryFolder folder;
   write_mesh(folder.path() / "stone.obj", make_box(Vec3(1, 2, 3)));
   const std::vector<Row> rows = rows_of_docs();

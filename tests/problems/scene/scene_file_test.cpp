@@ -220,7 +220,7 @@ TEST_CASE("a key that came later, given as it is by default, leaves a scene's te
   CHECK_THAT(text({"record.forces=true"}), Catch::Contains("forces = true"));
 }
 
-TEST_CASE("an edited mesh makes another scene; its time stamp and comments do not") {
+TEST_CASE("an edited mesh makes another scene, its time stamp and comments do not") {
   const TemporaryFolder folder;
   const fs::path mesh = folder.path() / "stone.obj";
   const auto body = folder.write("body.toml",

@@ -104,7 +104,7 @@ TEST_CASE("single: errors fall as in double, for mass ratios up to a million") {
   }
 }
 
-TEST_CASE("single: a rough look sees the error; now and then it is in double") {
+TEST_CASE("single: a rough look sees the error, now and then it is in double") {
   const FrictionProblem problem = grain_problem({.mass_ratio = 1e3, .seed = 6});
   Wide single(problem, true);
   single.sweep.error();
@@ -148,7 +148,7 @@ TEST_CASE("single: leaves by itself where its rounding would show") {
   CHECK(error < 1e-12 * velocity_scale(problem));
 }
 
-TEST_CASE("single: loaded impulses are stored as they were; the last sweep is in double") {
+TEST_CASE("single: loaded impulses are stored as they were, the last sweep is in double") {
   const FrictionProblem problem = grain_problem({.seed = 2});
   Wide single(problem, true), exact(problem, false);
   const Impulses start = Impulses::Constant(problem.row_count(), 1.0 / 3e5);

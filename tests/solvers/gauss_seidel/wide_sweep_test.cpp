@@ -166,7 +166,7 @@ TEST_CASE("wide: a sweep along a search moves the whole iterate by the same step
   CHECK(x.norm() > 0.0);
 }
 
-TEST_CASE("wide: impulses that are loaded come back; what nothing moves is dropped") {
+TEST_CASE("wide: impulses that are loaded come back, what nothing moves is dropped") {
   FrictionProblem problem = grain_problem({.seed = 2});
   add_fixed_contact(problem, Eigen::Vector3d::Constant(0.1));
   Wide wide(problem);

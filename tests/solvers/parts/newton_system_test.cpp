@@ -120,7 +120,7 @@ TEST_CASE("Newton's system of a stored W: few rows, nearly full, sparse, one row
     }
 }
 
-TEST_CASE("a singular system is said to be so; a stored W does without alpha", "[factors]") {
+TEST_CASE("a singular system is said to be so, a stored W does without alpha", "[factors]") {
   const FrictionProblem dynamics = make_known_solution({.bodies = 6, .contacts = 3}).problem;
   const Eigen::Matrix3d zero = Eigen::Matrix3d::Zero(), one = Eigen::Matrix3d::Identity();
   for (const FrictionProblem& problem : {dynamics, only_delassus(dynamics)}) {

@@ -68,7 +68,7 @@ TEST_CASE("the best iterate is returned, not the last") {
   CHECK((solved.impulses - 1.001 * trial.known.r).norm() <= 1e-12 * trial.known.r.norm());
 }
 
-TEST_CASE("rounds that stand still stall; those that a limit ended do not count") {
+TEST_CASE("rounds that stand still stall, those that a limit ended do not count") {
   Trial trial;
   int rounds = 0;
   const auto idle = [&](bool finished) {

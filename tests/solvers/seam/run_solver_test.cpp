@@ -98,7 +98,7 @@ TEST_CASE("a solver that stops on the natural map goes on until the law holds") 
   CHECK(ended.verdict == Verdict::unsolved);
 }
 
-TEST_CASE("an empty start means zero; a wrong one never reaches the solver") {
+TEST_CASE("an empty start means zero, a wrong one never reaches the solver") {
   Puppet puppet;
   SolverRunner runner;
   puppet.says(known.r);
@@ -120,7 +120,7 @@ TEST_CASE("an empty start means zero; a wrong one never reaches the solver") {
   CHECK(puppet.solved == before);
 }
 
-TEST_CASE("a backend that throws, or returns rubbish, has failed; one that declines says so") {
+TEST_CASE("a backend that throws, or returns rubbish, has failed, one that declines says so") {
   Puppet puppet;
   SolverRunner runner;
   puppet.on_solve = [] { throw std::runtime_error("singular"); };
