@@ -116,7 +116,8 @@ page::Table stage_table(const std::vector<Case>& cases, const std::string& unit,
       for (const LabelledMeasure& column : stage_columns)
         table.rows.back().push_back(words_of(group.mean(column.measure), column.factor));
       page::Values cited{{"case", row.name}, {"at", group.label}};
-      for (const RunMeasure measure : {"prefactor", "aspect", "height", "grain_mass"})
+      for (const RunMeasure measure :
+           {"prefactor", "aspect", "height", "grain_mass", "first_time90"})
         cited.emplace(measure, page::number(group.mean(measure).mean));
       section.keep(section.id + ".cases", cited);
     }
@@ -249,6 +250,33 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
   return std::isfinite(fit.exponent) ? found(fit, misfit_of(points).p) : Found{};
 }
 
+/// Draws C at the paper's 5 Hz against the solid fraction before the drive, a point for each case,
+/// and the paper's own.
+void draw_prefactor_and_density(const std::vector<Case>& cases, PaperSection& section) {
+  std::map<double, Points> by_friction;  // of the deposit
+  Points all;
+  for (const Case& row : cases)
+    if (const Group* slow = at(row.groups, 5.0))
+      for (Points* points : {&by_friction[slow->mean("deposit_friction").mean], &all})
+        points->add(slow->mean("density_before").mean, slow->mean("prefactor"));
+  Panel panel{.x_label = page::marked("*ρ*  before the drive"),
+              .y_label = page::marked("*C*  at 5 Hz"),
+              .y_min = 0.0};
+  Ink ink = Ink::blue;
+  for (const auto& [friction, points] : by_friction) {
+    const page::Text title = page::marked("*μ*  of the deposit: ") + page::exact(friction);
+    panel.curves.push_back(curve_of(points, title, ink));
+    ink = Ink::vermilion;
+  }
+  Points own;
+  own.add(paper::solid_fraction_initial, {.mean = paper::prefactor});
+  panel.curves.push_back(curve_of(own, "the paper", Ink::black, MarkShape::diamond));
+  const PowerFit fit = fit_power(all.x, all.y);
+  section.draw("preparation", {.panels = {panel}},
+               {{"exponent", words_of(fit)},
+                {"at_paper", page::number(fit.at(paper::solid_fraction_initial))}});
+}
+
 /// Adds the paper's numbers in every case with verdicts; how many a case meets is a finding.
 void add_numbers(const std::vector<Case>& cases, PaperSection& section) {
   page::Table table = page::words_table("paper_numbers");
@@ -281,7 +309,10 @@ void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
     if (Groups groups = data.groups(rows, what.along); !groups.empty())
       cases.push_back({name, std::move(groups)});
   if (cases.empty()) return;
-  if (what.has_numbers) add_numbers(cases, section);
+  if (what.has_numbers) {
+    draw_prefactor_and_density(cases, section);
+    add_numbers(cases, section);
+  }
   section.add(stage_table(cases, unit_suffix(what.along), section));
   if (!what.exponent_along.empty()) add_exponents(what, cases, section);
   if (what.has_changes) add_changes(what, cases, section);

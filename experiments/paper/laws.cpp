@@ -219,13 +219,14 @@ struct Law {
   bool is_of_paper() const { return std::string_view(section).starts_with("fig"); }
 };
 
-/// All laws: Figs. 9 to 11, then C along the shape of the box, and against its theory.
+/// All laws: Figs. 9 to 11, the premise of Eq. 5, then C along the shape of the box, and against
+/// its theory.
 std::vector<Law> all_laws() {
   using enum MarkShape;
   const LabelledMeasure rise{"rise", "Δ*x*~max~  (mm)", 1e3},
       prefactor{"prefactor", "*C* = Δ*x*~max~ / *X*", 1.0},
       frequency{"frequency", "*ν*  (Hz)", 1.0}, speed{"speed_in", "*v*~max~  (mm/s)", 1e3},
-      force{"force_over_weight", "*f*~max~ / (*m g*)", 1.0},
+      gain{"gain", "Δ*ρ*~1~  (10^−4^)", 1e4}, force{"force_over_weight", "*f*~max~ / (*m g*)", 1.0},
       gravity{"gravity", "*g*  (m/s^2^)", 1.0}, mass{"grain_share", "*m* / (*m* + *m*~w~)", 1.0},
       eq3{"eq3", "right side of Eq. 3 without *C*  (mm)", 1e3}, aspect{"aspect", "*L*/*H*", 1.0},
       ratio{"theory_ratio", "*C* / *C*~theory~", 1.0};
@@ -247,6 +248,7 @@ std::vector<Law> all_laws() {
           {"fig10", "fig10_gravity", {all_series[2]}, gravity, rise, 2.0, 5.0},
           {"fig10", "fig10_mass", {all_series[3]}, mass, rise, 1.0, 0.6},
           {"fig11", "fig11", all_series, eq3, rise, 1.0, 10.0, paper::prefactor},
+          {"fig13", "fig13_premise", {all_series[0]}, rise, gain, 1.0},
           {"box", "box_slow", {slow}, aspect, prefactor, -1.0, 1.5},
           {"box", "box_fast", {fast}, aspect, prefactor, -1.0, 1.5},
           {"theory", "theory", everything, eq3, ratio, 0.0}};

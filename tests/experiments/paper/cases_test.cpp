@@ -150,3 +150,33 @@ TEST_CASE("each preparation stands beside the paper's numbers, each window of co
   // One packing is missing at 20 Hz: the others are compared.
   CHECK(rate.find("p –") == std::string::npos);
 }
+
+TEST_CASE("C against the solid fraction of deposits: the exponent that rows were made with") {
+  std::vector<RunRow> rows;
+  for (const double friction : {0.4, 0.8})
+    for (const double pressure : {1.0, 0.2, 0.0})
+      for (const int seed : {1, 2}) {
+        RunRow& row = rows.emplace_back();
+        row.stage = "preparation";
+        row.name = printed("preparation.lid-%g-%g-grains.seed=%d", friction, pressure, seed);
+        row.key = row.name;
+        row["seed"] = seed;
+        row["frequency"] = 5.0;
+        row["lid_pressure"] = pressure;
+        row["deposit_friction"] = friction;
+        const double density = 0.5 + 0.05 * pressure - 0.03 * (friction - 0.4);
+        row["density_before"] = density;
+        row["prefactor"] = 0.02 * std::pow(density / 0.5, -3.0) * (0.98 + 0.02 * seed);
+      }
+  PaperData data({}, "nowhere", rows);
+  const PaperSection section = section_named(data, "preparation");
+  REQUIRE(section.figures.size() == 1);
+  const std::vector<Curve>& curves = section.figures[0].plot.panels[0].curves;
+  REQUIRE(curves.size() == 3);  // one for each friction, and the paper
+  for (const size_t friction : {0, 1}) CHECK(curves[friction].x.size() == 3);
+  CHECK(curves[2].x == std::vector{0.5});
+  CHECK(curves[2].y == std::vector{0.01});
+  CHECK_THAT(plain_words(section.numbers.at("preparation.exponent")),
+             Catch::StartsWith("−3.00 [−3.00, −3.00]"));
+  CHECK(plain_words(section.numbers.at("preparation.at_paper")) == "0.0202");
+}
