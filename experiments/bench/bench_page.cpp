@@ -242,7 +242,7 @@ std::map<std::string, std::string> page_numbers(const BenchPage& page,
   const Manifest here("bench all", process_arguments(), "");
   std::map<std::string, std::string> result{{"date", here.started().substr(0, 10)},
                                             {"machine", here.machine()},
-                                            {"commit", here.commit().substr(0, 12)}};
+                                            {"commit", here.commit()}};
   page::filled(page.text, [&](const std::string& words) {
     const bool is_known =
         result.contains(words) ||

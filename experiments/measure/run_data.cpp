@@ -71,6 +71,7 @@ void add_settings(const Scene& scene, RunFacts& facts) {
   facts.wall_mass = scene.drive.wall_mass_over_grains;
   facts.length = scene.box.length;
   facts.lid_raise = scene.drive.lid_raise;
+  facts.volume_margin = scene.control_volume.margin_x;
   const double part = scene.grains->size_convention == SizeConvention::radius ? 1.0 : 0.5;
   for (const SizeClass& grains : scene.grains->distribution) {
     facts.largest_size = std::fmax(facts.largest_size, part * grains.size);

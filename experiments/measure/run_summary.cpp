@@ -97,6 +97,9 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
                          const RunFacts& facts) {
   Compaction compaction;
   compaction.initial = facts.solid_fraction_initial;
+  compaction.has_wall_inside = std::ranges::any_of(
+      steps, [&](const StepRecord& step) { return -step.wall_x > facts.volume_margin; });
+  if (compaction.has_wall_inside) return compaction;
   compaction.last = steps.back().solid_fraction;
   // The reference is the solid fraction where the paper's window begins.
   const auto begin = std::ranges::find_if(steps, [&](const StepRecord& step) {

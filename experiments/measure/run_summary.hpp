@@ -81,6 +81,7 @@ struct RunFacts {
   double length = not_known;           ///< L of the box [m]
   double height = not_known;           ///< H: top of the packing before the lid is raised [m]
   double lid_raise = not_known;        ///< [m]
+  double volume_margin = not_known;    ///< from the wall's first place to the control volume [m]
   double largest_size = not_known;     ///< largest distance of a grain's centre to a vertex [m]
   double smallest_size = not_known;    ///< circumradius of the smallest body [m]
   double friction = not_known, deposit_friction = not_known;
@@ -134,9 +135,11 @@ inline constexpr TimeWindow common_window{0.4, 1.0};
 /// The paper's window of a run of 1 s, and a later window with one length for all frequencies.
 inline constexpr TimeWindow first_second{0.2, 1.0}, late_window{0.5, 1.5};
 
-/// The solid fraction rho and how it grows (paper, sec. 5, Eq. 4, Figs. 12 and 13).
+/// The solid fraction rho and how it grows (paper, sec. 5, Eq. 4, Figs. 12 and 13). Of a run whose
+/// wall enters the control volume only rho before the drive is known: the wall displaces grains.
 struct Compaction {
   double initial = not_known;        ///< rho before the drive
+  bool has_wall_inside = false;      ///< the driven wall enters the control volume
   double reference = not_known;      ///< rho_0: at paper_window.begin
   double last = not_known;           ///< at the end of the run
   std::vector<double> gains;         ///< in each period that counts

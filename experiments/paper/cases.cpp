@@ -117,7 +117,7 @@ page::Table stage_table(const std::vector<Case>& cases, const std::string& unit,
         table.rows.back().push_back(words_of(group.mean(column.measure), column.factor));
       page::Values cited{{"case", row.name}, {"at", group.label}};
       for (const RunMeasure measure :
-           {"prefactor", "aspect", "height", "grain_mass", "first_time90"})
+           {"prefactor", "aspect", "height", "grain_mass", "first_compaction", "first_time90"})
         cited.emplace(measure, page::number(group.mean(measure).mean));
       section.keep(section.id + ".cases", cited);
     }
@@ -251,30 +251,34 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
 }
 
 /// Draws C at the paper's 5 Hz against the solid fraction before the drive, a point for each case,
-/// and the paper's own.
+/// and the paper's own. Exponents are fitted packing by packing.
 void draw_prefactor_and_density(const std::vector<Case>& cases, PaperSection& section) {
-  std::map<double, Points> by_friction;  // of the deposit
-  Points all;
+  Groups slow;
   for (const Case& row : cases)
-    if (const Group* slow = at(row.groups, 5.0))
-      for (Points* points : {&by_friction[slow->mean("deposit_friction").mean], &all})
-        points->add(slow->mean("density_before").mean, slow->mean("prefactor"));
+    if (const Group* group = at(row.groups, 5.0)) slow.push_back(*group);
   Panel panel{.x_label = page::marked("*ρ*  before the drive"),
               .y_label = page::marked("*C*  at 5 Hz"),
               .y_min = 0.0};
-  Ink ink = Ink::blue;
-  for (const auto& [friction, points] : by_friction) {
+  for (const auto& [friction, ink] : {std::pair{0.4, Ink::blue}, {0.8, Ink::vermilion}}) {
+    Groups shown = slow;
+    std::erase_if(shown, [&, is = friction](const Group& group) {
+      return (*group.samples.front())["deposit_friction"] != is;
+    });
     const page::Text title = page::marked("*μ*  of the deposit: ") + page::exact(friction);
-    panel.curves.push_back(curve_of(points, title, ink));
-    ink = Ink::vermilion;
+    panel.curves.push_back(curve_of(points_of(shown, "density_before", "prefactor"), title, ink));
   }
   Points own;
   own.add(paper::solid_fraction_initial, {.mean = paper::prefactor});
   panel.curves.push_back(curve_of(own, "the paper", Ink::black, MarkShape::diamond));
-  const PowerFit fit = fit_power(all.x, all.y);
+  const auto exponent = [&](RunMeasure measure) {
+    return words_with_interval(mean_of(exponents_of_samples(slow, "density_before", measure)));
+  };
+  const Points all = points_of(slow, "density_before", "prefactor");
+  const double at_paper = fit_power(all.x, all.y).at(paper::solid_fraction_initial);
   section.draw("preparation", {.panels = {panel}},
-               {{"exponent", words_of(fit)},
-                {"at_paper", page::number(fit.at(paper::solid_fraction_initial))}});
+               {{"exponent", exponent("prefactor")},
+                {"aspect", exponent("aspect")},
+                {"at_paper", page::number(at_paper)}});
 }
 
 /// Adds the paper's numbers in every case with verdicts; how many a case meets is a finding.

@@ -181,6 +181,7 @@ RunRow::RunRow(const RunSummary& run) : solver(run.facts.solver) {
 double RunRow::operator[](RunMeasure measure) const {
   const RunRow& run = *this;
   if (measure == "relative_gain") return run["gain"] / run["density_reference"];
+  if (measure == "first_compaction") return run["density_reference"] / run["density_before"] - 1.0;
   if (measure == "theory_ratio") return run["prefactor"] / run["prefactor_theory"];
   if (measure == "aspect_prefactor") return run["prefactor"] * run["aspect"];
   if (measure == "carried_share") return run["carried_mass"] / run["grain_mass"];

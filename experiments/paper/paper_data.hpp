@@ -36,7 +36,7 @@ std::vector<PlannedRun> read_campaign(const CampaignSettings& settings);
 std::string stage_of(const PlannedRun& run);
 
 /// The name of a number of a run: a column of runs.csv, or a number that follows from columns:
-///   relative_gain  Delta rho_1/rho_0
+///   relative_gain, first_compaction         Delta rho_1/rho_0; rho_0 over rho before, less 1
 ///   grain_share    m/(m + m_w)
 ///   grains_across  cube root of the number of grains
 ///   carried_share, yield_over_push          M/m; the load where the stroke begins, over F

@@ -135,7 +135,8 @@ std::string Manifest::key() const { return json_->at("key").get<std::string>(); 
 
 std::string Manifest::commit() const {
   const Json& ballast = json_->at("ballast");
-  return ballast["commit"].get<std::string>() + (ballast["modified"].get<bool>() ? "-dirty" : "");
+  return ballast["commit"].get<std::string>().substr(0, 12) +
+         (ballast["modified"].get<bool>() ? "-dirty" : "");
 }
 
 std::string Manifest::machine() const {

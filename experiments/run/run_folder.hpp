@@ -54,7 +54,8 @@ class Manifest {
   void summary(const std::string& name, const std::string& value);
 
   std::string key() const;
-  /// The commit of the program that began the run; "-dirty" follows where it was modified.
+  /// The commit of the program that began the run, 12 digits; "-dirty" follows where its sources
+  /// were modified.
   std::string commit() const;
   /// Processor and number of cores; "unknown" where the manifest has none.
   std::string machine() const;

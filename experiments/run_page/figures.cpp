@@ -77,6 +77,7 @@ page::Picture figure_12(const RunData& data, const RunSummary& summary) {
   if (std::isfinite(compaction.reference))
     caption +=
         page::words("run.fig12.reference", {{"reference", page::number(compaction.reference, 4)}});
+  if (compaction.has_wall_inside) caption += page::words("run.fig12.inside");
   const std::vector<WallPeriod>& periods = summary.wall.periods;
   if (std::isfinite(compaction.gain) && periods.front().first > 0) {
     // a line from the first period's begin to the last one's end: its slope is the mean gain

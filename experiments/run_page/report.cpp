@@ -240,13 +240,19 @@ page::Table provenance_table(const RunData& data) {
   return table;
 }
 
+/// "", or what is to be said behind the commit of a program whose sources were modified.
+const char* modified_words(const RunData& data) {
+  const Json::json_pointer place("/ballast/modified");
+  return data.manifest().contains(place) && data.manifest()[place] == true ? ", modified" : "";
+}
+
 std::string made_by(const RunData& data) {
   std::string text;
   const auto add = [&](const std::string& before, const std::string& part) {
     if (!part.empty()) add_to_list(text, before + part);
   };
   add("ballast ", text_at(data, "/ballast/version"));
-  add("commit ", text_at(data, "/ballast/commit").substr(0, 12));
+  add("commit ", text_at(data, "/ballast/commit").substr(0, 12) + modified_words(data));
   add("", text_at(data, "/machine/cpu"));
   add("started ", text_at(data, "/started"));
   return text;
@@ -256,7 +262,7 @@ std::string reproduce_commands(const RunData& data) {
   std::string text;
   const std::string commit = text_at(data, "/ballast/commit");
   if (!commit.empty() && commit != "unknown")
-    text += "# the program of commit " + commit + " made it\n";
+    text += "# the program of commit " + commit + modified_words(data) + " made it\n";
   if (data.scene_text.empty()) return text;
   // The resolved scene has all settings; its name and the --set of the command line have not.
   const std::filesystem::path folder =

@@ -246,13 +246,17 @@ std::vector<StepRecord> growing(double gain, double duration) {
   return steps;
 }
 
-Compaction measured(const std::vector<StepRecord>& steps) {
+RunFacts packing_facts() {
   RunFacts facts;
   facts.frequency = load_frequency;
   facts.step = row_step;
   facts.solid_fraction_initial = 0.49;
   facts.has_wall = facts.has_packing = true;
-  return summarise(steps, facts).compaction;
+  return facts;
+}
+
+Compaction measured(const std::vector<StepRecord>& steps) {
+  return summarise(steps, packing_facts()).compaction;
 }
 
 TEST_CASE("compaction of a solid fraction that grows and swings, within the two windows of Eq. 4") {
@@ -268,6 +272,24 @@ TEST_CASE("compaction of a solid fraction that grows and swings, within the two 
     if (step.time > 1.5) step.solid_fraction += 0.01;
   CHECK(measured(steps).rate == Approx(compaction.rate + 0.01 / (0.502 * 1.8)));
   CHECK(measured(steps).rate_common == Approx(compaction.rate));  // its window ends at 1 s
+}
+
+TEST_CASE("compaction is not known where the wall enters the control volume") {
+  auto steps = growing(0.002, 2.0);
+  for (StepRecord& step : steps) step.wall_x = 0.01;
+  RunFacts facts = packing_facts();
+  facts.volume_margin = 0.08;
+  steps[700].wall_x = -0.0799;
+  const Compaction clear = summarise(steps, facts).compaction;
+  CHECK(!clear.has_wall_inside);
+  CHECK(clear.gain == Approx(0.002));
+  steps[700].wall_x = -0.0801;
+  const Compaction inside = summarise(steps, facts).compaction;
+  CHECK(inside.has_wall_inside);
+  CHECK(inside.initial == 0.49);
+  for (const double value : {inside.reference, inside.last, inside.gain, inside.relative_gain,
+                             inside.rate, inside.rate_common, inside.rate_first, inside.rate_late})
+    CHECK(std::isnan(value));
 }
 
 TEST_CASE("the roll of whole periods needs frames at their ends and the box") {
