@@ -72,8 +72,9 @@ TEST_CASE("In a child that may be lost Siconos is called as it is: the same bits
 
 TEST_CASE("Siconos' Newton goes on with a sparse W where it circles with a dense one") {
   if (!make_siconos(SiconosMethod::nsgs)) return;
-  // 41 contacts: with a dense W a step is faster, but thousands of steps do not converge.
-  const FrictionProblem problem = make_pile(random_pile(304, 60));
+  // 29 contacts: with a dense W a step is faster, but 200 steps do not converge. Rounding decides
+  // about that: of 60 piles, this one does so with OpenBLAS for AVX-512, AVX2 and SSE3.
+  const FrictionProblem problem = make_pile(random_pile(309, 60));
   FclibStop stop(problem, 1e-4);
   Budget budget{.tolerance = 0.0, .max_iterations = 4000};
   budget.fclib = &stop;
