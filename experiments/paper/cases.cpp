@@ -1,6 +1,7 @@
 // Tables of cases: each case changes something. The tables show the cases at the values they were
 // driven at and compare them sample by sample. A section is its rows of case_tables and its words.
 
+#include <array>
 #include <set>
 
 #include "experiments/paper/sections.hpp"
@@ -253,20 +254,20 @@ Found found_of(const PaperNumber& number, const Groups& groups) {
 /// Draws C at the paper's 5 Hz against the solid fraction before the drive, a point for each case,
 /// and the paper's own. Exponents are fitted packing by packing.
 void draw_prefactor_and_density(const std::vector<Case>& cases, PaperSection& section) {
+  std::map<double, Groups> by_friction;  // of the deposit
   Groups slow;
   for (const Case& row : cases)
-    if (const Group* group = at(row.groups, 5.0)) slow.push_back(*group);
+    if (const Group* group = at(row.groups, 5.0))
+      for (Groups* groups : {&by_friction[(*group->samples.front())["deposit_friction"]], &slow})
+        groups->push_back(*group);
   Panel panel{.x_label = page::marked("*ρ*  before the drive"),
               .y_label = page::marked("*C*  at 5 Hz"),
               .y_min = 0.0};
-  for (const auto& [friction, ink] : {std::pair{0.4, Ink::blue}, {0.8, Ink::vermilion}}) {
-    Groups shown = slow;
-    std::erase_if(shown, [&, is = friction](const Group& group) {
-      return (*group.samples.front())["deposit_friction"] != is;
-    });
-    const page::Text title = page::marked("*μ*  of the deposit: ") + page::exact(friction);
-    panel.curves.push_back(curve_of(points_of(shown, "density_before", "prefactor"), title, ink));
-  }
+  constexpr std::array inks{Ink::blue, Ink::vermilion, Ink::green, Ink::purple};
+  for (const auto& [friction, groups] : by_friction)
+    panel.curves.push_back(curve_of(points_of(groups, "density_before", "prefactor"),
+                                    page::marked("*μ*  of the deposit: ") + page::exact(friction),
+                                    inks[panel.curves.size() % inks.size()]));
   Points own;
   own.add(paper::solid_fraction_initial, {.mean = paper::prefactor});
   panel.curves.push_back(curve_of(own, "the paper", Ink::black, MarkShape::diamond));

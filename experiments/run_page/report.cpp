@@ -242,8 +242,7 @@ page::Table provenance_table(const RunData& data) {
 
 /// "", or what is to be said behind the commit of a program whose sources were modified.
 const char* modified_words(const RunData& data) {
-  const Json::json_pointer place("/ballast/modified");
-  return data.manifest().contains(place) && data.manifest()[place] == true ? ", modified" : "";
+  return text_at(data, "/ballast/modified") == "true" ? ", modified" : "";
 }
 
 std::string made_by(const RunData& data) {
