@@ -11,6 +11,7 @@ namespace {
 void book(const SolverRun& earlier, SolverRun& run) {
   run.solved.iterations += earlier.solved.iterations;
   run.prepare_seconds += earlier.prepare_seconds;
+  run.startup_seconds += earlier.startup_seconds;
   run.solve_seconds += earlier.solve_seconds;
 }
 

@@ -64,15 +64,15 @@ constexpr StepColumn columns[] = {
      &StepRecord::restitution},
     {"energy_residual", "J", "change of kinetic energy minus works plus dissipation in this step",
      &StepRecord::energy_residual},
-    {"seconds_detect", "s", "wall clock of contact detection and warm-start matching",
-     &StepRecord::seconds_detect, "detection"},
+    {"seconds_detect", "s", "wall clock of contact detection", &StepRecord::seconds_detect,
+     "detection"},
     {"seconds_assemble", "s", "wall clock of assembly", &StepRecord::seconds_assemble, "assembly"},
     {"seconds_solve", "s", "wall clock of prepare and solve", &StepRecord::seconds_solve, "solver"},
     {"seconds_judge", "s", "wall clock of validation and judge", &StepRecord::seconds_judge,
      "validation and judge"},
     {"seconds_correct", "s", "wall clock of the overlap correction", &StepRecord::seconds_correct,
      "overlap correction"},
-    {"seconds_other", "s", "wall clock of the rest of the step: integration, measures",
+    {"seconds_other", "s", "wall clock of the rest of the step: integration, warm starts, measures",
      &StepRecord::seconds_other, "integration, measures"},
 };
 

@@ -121,8 +121,8 @@ void TimeStepper::detect(const MotionState& mid, std::vector<ContactPoint>& cont
 /// A contact that was there in the last step begins with the impulse that it had then.
 void TimeStepper::carry(const StepMemory& memory) {
   // After a step that ended by an exception contacts have no impulses.
-  if (spec_.warm_start && memory.impulses.size() == old_contacts_.size())
-    carry_impulses(old_contacts_, memory.impulses, memory.contacts, carried_, team_.get());
+  if (spec_.warm_start && old_impulses_.size() == old_contacts_.size())
+    carry_impulses(old_contacts_, old_impulses_, memory.contacts, carried_, team_.get());
   else
     carried_.assign(memory.contacts.size(), Vec3::Zero());
 }
@@ -279,6 +279,8 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   });
   record.seconds_other = clock.restart();
   memory.contacts.swap(old_contacts_);
+  memory.impulses.swap(old_impulses_);
+  memory.impulses.clear();
   detect(state, memory.contacts);
   record.seconds_detect = clock.restart();
   detect_pace_.took(record.seconds_detect);

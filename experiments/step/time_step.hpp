@@ -93,7 +93,7 @@ class TimeStepper {
   const bool some_shape_is_fixed_;  ///< then bodies may pass edges that would not stop them
   std::vector<Pose> ahead_;         ///< poses at the next detection if nothing is met
   std::vector<ContactPoint> old_contacts_;
-  std::vector<Vec3> carried_;
+  std::vector<Vec3> old_impulses_, carried_;
   Eigen::VectorXd v_before_;
   Eigen::VectorXd force_, gyroscopic_;  // h f, and the impulse of the gyroscopic term
 };

@@ -100,17 +100,18 @@ void DetectionPart::bound_separation(CandidatePair& pair, double arm_a, double a
       1e-9 * (bodies_.bounds[pair.a].circumradius + bodies_.bounds[pair.b].circumradius + use);
 }
 
-/// The same for a pair that its axis separates, with the origins `distance` [m] apart. A face's
-/// separation is the least n.(x - p) over the other body's points x, less the face's offset, with p
-/// the origin of the face's body. It shrinks by no more than x and p move plus that body's turn
-/// times |x - p|. A separating face is found whatever the hint, so that a bound does not change the
-/// outcome. Two edges may cease to be a facet, so they give no bound.
-void DetectionPart::bound_separated(CandidatePair& pair, double distance, double separation) const {
+/// The same for a pair that an axis of this kind separates, with the origins `distance` [m] apart.
+/// A face's separation is the least n.(x - p) over the other body's points x, less the face's
+/// offset, with p the origin of the face's body. It shrinks by no more than x and p move plus that
+/// body's turn times |x - p|. A separating face is found whatever the hint, so that a bound does
+/// not change the outcome. Two edges may cease to be a facet, so they give no bound.
+void DetectionPart::bound_separated(CandidatePair& pair, double distance, AxisKind kind,
+                                    double separation) const {
   const double radius_a = bodies_.bounds[pair.a].circumradius,
                radius_b = bodies_.bounds[pair.b].circumradius;
-  if (pair.axis.kind == AxisKind::face_of_a)
+  if (kind == AxisKind::face_of_a)
     bound_separation(pair, distance + radius_b, radius_b, separation);
-  if (pair.axis.kind == AxisKind::face_of_b)
+  if (kind == AxisKind::face_of_b)
     bound_separation(pair, radius_a, distance + radius_a, separation);
 }
 
@@ -180,7 +181,7 @@ void DetectionPart::detect_pair(BroadPhase& broad_phase, CandidatePair& candidat
         return append(candidate, pair, axis, points, contacts);
       case TouchingPair::PairOutcome::apart:
         ++counters_.cached_separations;
-        return bound_separated(candidate, between.norm(), axis.separation);
+        return bound_separated(candidate, between.norm(), axis.feature.kind, axis.separation);
       case TouchingPair::PairOutcome::undecided:
         break;
     }
@@ -192,7 +193,8 @@ void DetectionPart::detect_pair(BroadPhase& broad_phase, CandidatePair& candidat
   if (outcome == AxisOutcome::separated_by_hint) ++counters_.cached_separations;
   if (outcome == AxisOutcome::proved_by_hint) ++counters_.proved_axes;
   if (outcome == AxisOutcome::separated || outcome == AxisOutcome::found) ++counters_.full_tests;
-  if (is_separated(outcome)) return bound_separated(candidate, between.norm(), axis.separation);
+  if (is_separated(outcome))
+    return bound_separated(candidate, between.norm(), candidate.axis.kind, axis.separation);
   // Bodies apart whose nearest points lie off the axis may be farther apart than the axis says.
   // Whether they count must not depend on the margin with which the broad phase listed them: they
   // count if it would list them without any margin.

@@ -73,7 +73,8 @@ class DetectionPart {
   bool passes(const CandidatePair& candidate, ManifoldLimits& limits, SeparatingAxis& axis,
               std::vector<ContactPoint>& contacts);
   void bound_separation(CandidatePair& pair, double arm_a, double arm_b, double separation) const;
-  void bound_separated(CandidatePair& pair, double distance, double separation) const;
+  void bound_separated(CandidatePair& pair, double distance, AxisKind kind,
+                       double separation) const;
   double bound_use(const CandidatePair& pair) const;
   bool boxes_within_reach(const CandidatePair& pair, double alert) const;
 

@@ -130,6 +130,7 @@ TouchingPair::PairOutcome TouchingPair::look_at(const Faces& faces, const PairFr
   if (!(clearance > proof_margin(pair)))
     return PairOutcome::undecided;  // another vertex may be the lowest
   const double separation = face_separation_at(pair, own, reference, low.height);
+  axis.feature = feature_;
   axis.separation = separation;
   if (separation > limits.alert) return PairOutcome::apart;
   // The axis and its proof.
@@ -162,6 +163,7 @@ TouchingPair::PairOutcome TouchingPair::look_at(const Edges& edges, const PairFr
                                                 std::span<const ManifoldPoint>& points) const {
   const std::optional<EdgeSeparation> facet = edge_facet(pair, edges.a, edges.b);
   if (!facet || facet->nearly_parallel) return PairOutcome::undecided;
+  axis.feature = feature_;
   axis.separation = facet->separation;
   if (facet->separation > limits.alert) return PairOutcome::apart;
   axis = edge_axis(pair, feature_, edges.a, edges.b, *facet);

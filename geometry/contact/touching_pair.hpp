@@ -22,7 +22,7 @@ class TouchingPair {
 
   enum class PairOutcome { undecided, apart, touching };
   /// Tests the pair in its present pose.
-  /// apart: the axis separates by more than limits.alert; only the separation of `axis` is set.
+  /// apart: the axis separates by more than limits.alert; `axis` has only feature and separation.
   /// touching: the axis is proved to be the best; its clearance is a lower bound. `points` are the
   /// pair's points, valid until the manifold is used again.
   PairOutcome look(const PairFrame& pair, double turn, const ManifoldLimits& limits,

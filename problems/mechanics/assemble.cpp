@@ -225,6 +225,7 @@ void ProblemAssembler::write_bias(const StepInput& step) {
       dynamics.bias[problem_.row_begin[c]] +=
           std::max(step.contacts[detected_[c]].gap, 0.0) / step.h;
   });
+  rebound_.clear();
   if (restitution_.empty()) return;
   // Newton's law: u_N+ + e u_N- >= 0 for approaching points
   rebound_.assign(problem_.contact_count(), 0.0);

@@ -153,6 +153,11 @@ SolverRun SolverRunner::run(Solver& solver, const FrictionProblem& problem, Impu
     if (!(target > 0.0)) break;
     left.tolerance = target;
     SolverRun next = attempt(solver, problem, run.solved.impulses, left, false);
+    if (!next.failure.empty() || !(next.error.natural_map_rms <= budget.tolerance)) {
+      // worse than what it began with
+      next.solved.impulses = run.solved.impulses;
+      next.error = judge_.judge(problem, next.solved.impulses, /*masses_are_known=*/true);
+    }
     decide(next);
     // The tolerance of the budget decides. Both attempts are booked as one solve.
     if (next.error.within(budget.tolerance)) {

@@ -1,6 +1,7 @@
 #include "experiments/step/impact_law.hpp"
 
 #include <cmath>
+#include <thread>
 
 #include "experiments/step/time_step.hpp"
 #include "problems/algebra/known_solutions.hpp"
@@ -45,6 +46,23 @@ double loss(const Strike& s, const Impulses& r) {
 
 /// The coefficient e at every contact.
 std::vector<double> all_e(size_t contacts) { return std::vector<double>(contacts, e); }
+
+/// A solver that takes a millisecond to start.
+class LateSolver final : public Solver {
+ public:
+  void prepare(const FrictionProblem& problem) override { inner_->prepare(problem); }
+  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    Solved solved = inner_->solve(problem, std::move(start), budget);
+    solved.startup_seconds = 1e-3;
+    ++starts;
+    return solved;
+  }
+  int starts = 0;
+
+ private:
+  std::unique_ptr<Solver> inner_ = make_solver("pgs");
+};
 
 Impulses solved(Strike s, double scale) {
   for (int c = 0; c < s.problem.contact_count(); ++c)
@@ -113,7 +131,22 @@ TEST_CASE("a force that pulls bodies apart lowers e by no more than what it does
     INFO("h " << h);
     CHECK(-state.velocity[0].z() / before == Approx(e).margin(10.0 * h));
     CHECK(-state.velocity[0].z() < e * before + 1e-9);
+    while (stepper.problem().contact_count() > 0 && state.step < 1000) stepper.step(state, memory);
+    CHECK(stepper.problem().contact_count() == 0);
+    CHECK(stepper.assembler().rebound().empty());  // none of an earlier step's contacts
   }
+}
+
+TEST_CASE("a step's solves are booked together, their starts too") {
+  const Strike s = strike(1);
+  FrictionProblem problem = s.problem;
+  SolverRunner runner;
+  ImpactLaw law(e);
+  LateSolver late;
+  const SolverRun run =
+      law.solve(runner, late, problem, s.rebound, all_e(s.rebound.size()), {}, exact);
+  CHECK(late.starts >= 2);
+  CHECK(run.startup_seconds == Approx(1e-3 * late.starts));
 }
 
 TEST_CASE("islands are limited each on its own") {

@@ -246,6 +246,30 @@ TEST_CASE("a body that spins too fast for the step ends the run by its name") {
                         Catch::Contains("scene.step"));
 }
 
+TEST_CASE("after a step that failed the next one starts without impulses") {
+  Scene scene = empty_scene();
+  scene.walls.push_back(floor_at_zero(0.4));
+  scene.bodies.push_back(cube("resting", 0.1, 2.0, Vec3(0, 0, 0.05)));
+  scene.bodies[0].inertia = Vec3(1, 2, 2.5);
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, scene, -1);
+  StepMemory memory;
+  for (int k = 0; k < 3; ++k) stepper.step(state, memory);
+  const MotionState good = state;
+  Impulses start;
+  stepper.step(state, memory);
+  stepper.warm_start(memory, start);
+  CHECK(start.norm() > 0.0);
+  state.spin[0] = Vec3(1e6, 2e6, 2e6);
+  CHECK_THROWS_AS(stepper.step(state, memory), Error);
+  state = good;
+  stepper.step(state, memory);
+  stepper.warm_start(memory, start);
+  CHECK(start.size() > 0);
+  CHECK(start.norm() == 0.0);
+}
+
 TEST_CASE("impulses that are not finite end the run by the solver's name, not later by a pose's") {
   SolverRun run;
   run.solved.impulses = Impulses::Ones(3);

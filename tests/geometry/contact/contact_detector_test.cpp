@@ -67,6 +67,34 @@ TEST_CASE("contacts depend on poses and reaches only: with and without cache, bi
   }
 }
 
+TEST_CASE("pairs that part, rest apart and roll: with and without cache, bit by bit") {
+  constexpr double reach = 1e-3;
+  DetectionSettings fresh;
+  fresh.use_cache = false;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Packing packing(60, 0.25, seed);
+    packing.relax();
+    for (double& r : packing.reach) r = reach * packing.random.uniform();
+    ContactDetector cached(packing.shapes, {}), from_scratch(packing.shapes, fresh);
+    std::vector<ContactPoint> contacts, expected;
+    for (int k = 0; k < 60; ++k) {
+      const int phase = k % 6;
+      for (size_t i = 0; i < packing.shapes.size(); ++i) {
+        if (!packing.shapes[i].polyhedron || packing.shapes[i].fixed) continue;
+        Pose& pose = packing.poses[i];
+        Vec3& way = packing.velocity[i];
+        if (phase == 0) pose.position -= 2.0 * reach * way;  // together
+        if (phase == 1) way = random_direction(packing.random);
+        if (phase == 1 || phase == 2) pose.position += reach * way;  // apart
+        if (phase >= 4) pose = moved(pose, Vec3::Zero(), way, 0.02);
+      }
+      cached.detect(packing.poses, packing.reach, contacts);
+      from_scratch.detect(packing.poses, packing.reach, expected);
+      if (!same_bits(contacts, expected)) FAIL_CHECK("seed " << seed << ", step " << k);
+    }
+  }
+}
+
 TEST_CASE("all pairs by brute force: who touches, and how deep") {
   Packing packing(40, 0.25, 2);
   DetectionSettings settings;

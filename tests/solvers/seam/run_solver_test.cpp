@@ -98,6 +98,27 @@ TEST_CASE("a solver that stops on the natural map goes on until the law holds") 
   CHECK(ended.verdict == Verdict::unsolved);
 }
 
+TEST_CASE("a later round that fails or is worse leaves the answer before it") {
+  const FrictionProblem problem = rough_contact(1e4);
+  const Impulses first = Eigen::Vector3d(1e-7, 0.0, 0.0);  // denied, as zero impulses are
+  Puppet puppet;
+  SolverRunner runner;
+  for (const bool throws : {true, false}) {
+    puppet.says(first);
+    puppet.solved = 0;
+    puppet.on_solve = [&] {
+      if (puppet.solved < 2) return;
+      if (throws) throw std::runtime_error("singular");
+      puppet.says(Eigen::Vector3d(1e3, 0.0, 0.0), StopReason::iteration_limit);
+    };
+    const SolverRun run = runner.run(puppet, problem, {}, {.tolerance = 1e-5});
+    CHECK(puppet.solved == 2);
+    CHECK(run.solved.impulses == first);
+    CHECK(run.verdict == Verdict::unsolved);
+    CHECK(run.error.natural_map_rms == contact_error(problem, first).natural_map_rms);
+  }
+}
+
 TEST_CASE("an empty start means zero, a wrong one never reaches the solver") {
   Puppet puppet;
   SolverRunner runner;
