@@ -274,11 +274,15 @@ void draw_prefactor_and_density(const std::vector<Case>& cases, PaperSection& se
   const auto exponent = [&](RunMeasure measure) {
     return words_with_interval(mean_of(exponents_of_samples(slow, "density_before", measure)));
   };
+  double density_error = 0.0;
+  for (const Group& group : slow)
+    density_error = std::max(density_error, group.mean("density_before").error);
   const Points all = points_of(slow, "density_before", "prefactor");
   const double at_paper = fit_power(all.x, all.y).at(paper::solid_fraction_initial);
   section.draw("preparation", {.panels = {panel}},
                {{"exponent", exponent("prefactor")},
                 {"aspect", exponent("aspect")},
+                {"density_error", page::number(density_error)},
                 {"at_paper", page::number(at_paper)}});
 }
 

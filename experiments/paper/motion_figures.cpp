@@ -427,19 +427,21 @@ void fill_compaction(PaperData& data, PaperSection& section) {
     const Points curve = points_of(groups, "frequency", rate);
     if (curve.x.size() < 2) return;
     panel.curves.push_back(curve_of(curve, title, ink, shape));
-    std::vector<std::vector<double>> all, fast;
+    std::vector<std::vector<double>> all, slow, fast;
     for (const Group& group : groups) {
       std::vector<double> values;  // of the packings that every group has
       for (const RunRow* row : groups.front().samples)
         if (std::ranges::all_of(groups, [&](const Group& one) { return one.like(*row); }))
           values.push_back((*group.like(*row))[rate]);
       all.push_back(std::move(values));
+      if (group.value <= 5.0) slow.push_back(all.back());
       if (group.value >= 5.0) fast.push_back(all.back());
     }
     const auto most = std::ranges::max_element(curve.y);
     section.report("compaction.claim", {{"window", title},
                                         {"peak", page::number(curve.x[most - curve.y.begin()])},
                                         {"differ", words_of(repeated_anova(all), "F")},
+                                        {"differ_slow", words_of(repeated_anova(slow), "F")},
                                         {"differ_fast", words_of(repeated_anova(fast), "F")}});
   }
   section.draw("compaction", {.height = 480, .panels = {panel}},
