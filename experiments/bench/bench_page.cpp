@@ -159,12 +159,16 @@ void add_comparison(std::span<const CompareRow> rows, double shift, const char* 
 
 constexpr const char* other_program = "milliseconds.txt";
 
-void run_beside(const std::string& command, const fs::path& folder) {
-  const ProgramResult result = run_program("/bin/sh", {"-c", command}, /*seconds=*/3600.0);
+void run_beside(const BenchAll& options, const fs::path& folder) {
+  const std::string& command = options.beside;
+  const ProgramResult result =
+      run_program("/bin/sh", {"-c", "cd \"$0\" && " + command, options.caller.string()},
+                  /*seconds=*/3600.0);
   const std::vector<std::string> words = words_of(result.output);
   const auto number = words.empty() ? std::nullopt : parsed<double>(words.back());
   if (!result.succeeded() || !number)
-    throw Error("bench all: '" + command + "' failed, or its last word is no number");
+    throw Error("bench all: '" + command + "' failed, or its last word is no number" +
+                (result.errors.empty() ? "" : ": " + one_line(result.errors, ' ')));
   write_whole_file(folder / other_program, printed("%.17g\n", *number));
 }
 
@@ -198,7 +202,9 @@ std::map<std::string, double> read_stage(const BenchStage& stage, const fs::path
 /// Runs one turn of a stage that this program has not run yet. False: interrupted.
 bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
   const fs::path folder = folder_of(stage, turn), mark = folder / "measured_by";
-  const std::string key = content_key(binary_key() + options.beside + command_of(stage)) + "\n";
+  const std::string key =
+      content_key(binary_key() + (stage.words.empty() ? options.beside : "") + command_of(stage)) +
+      "\n";
   if (path_exists(mark)) {
     if (read_whole_file(mark) == key) return true;
     fs::remove_all(folder);  // made by another program or command
@@ -206,7 +212,7 @@ bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
   std::cout << folder.string() << ": " << command_of(stage) << std::endl;
   create_folder(folder);
   if (stage.words.empty()) {
-    run_beside(options.beside, folder);
+    run_beside(options, folder);
   } else {
     std::vector<std::string> words = stage.words;
     words.insert(words.end(), {"--output", folder.string()});

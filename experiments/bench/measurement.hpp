@@ -50,6 +50,7 @@ struct BenchAll {
   std::filesystem::path rows;
   /// A shell command of another program; the last word that it prints is its milliseconds per step.
   std::string beside;
+  std::filesystem::path caller = std::filesystem::current_path();  ///< where `beside` runs
 };
 
 /// Runs in `output` the stages that have no result by this program yet, and writes results.md,

@@ -264,12 +264,22 @@ std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesyst
       point.grains = scene.grains->count;
       const auto in_child = [&](const std::function<std::string()>& work) {
         constexpr double day = 86400.0;  // [s]
-        const ChildResult child = run_in_child(day, work);
+        // its first character: whether the rest is the answer or what went wrong
+        const ChildResult child = run_in_child(day, [&] {
+          try {
+            return "+" + work();
+          } catch (const std::exception& error) {
+            return std::string("-") + error.what();
+          }
+        });
         if (child.end != ChildEnd::complete)
           throw Error(
               printed("bench scaling: %.0f grains: the child ", point.grains) +
               (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
-        return child.answer;
+        if (child.answer[0] == '-')
+          throw Error(printed("bench scaling: %.0f grains: ", point.grains) +
+                      child.answer.substr(1));
+        return child.answer.substr(1);
       };
       in_child([&] { return deposited_box(scene, cache).packing.key; });
       const std::string answer = in_child([&] {

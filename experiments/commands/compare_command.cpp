@@ -42,6 +42,8 @@ ExitCode collect(const CollectOptions& options) {
   lock.require_held();
   // The list that the collection is made from is kept with it.
   const std::filesystem::path kept = folder / "collection.toml";
+  if (options.list.empty() && path_exists(kept) && read_whole_file(kept) != collection_list())
+    throw Error(kept.string() + ": is another list than the built-in one: give it as --list");
   if (options.list.empty()) write_whole_file(kept, collection_list());
   std::vector<CollectedRun> runs = read_collection(options.list.empty() ? kept : options.list);
   if (!options.list.empty()) write_whole_file(kept, read_whole_file(options.list));
@@ -240,13 +242,14 @@ ExitCode compare(CompareRequest& options) {
                                            : "compare: --live SCENE: not with cases");
   if (options.comparison.tolerances.empty() && options.live.iterations.empty())
     throw UsageError("compare: --tolerances none: expected --live SCENE --iterations COUNT");
+  const bool is_live = !options.live.scene.empty();
+  if (options.comparison.folder.empty())
+    options.comparison.folder = is_live ? "results/compare_live" : "results/compare";
   const std::filesystem::path output = options.comparison.folder;
-  require_own_folder(output, {{"manifest.json", "\"scene\": \"compare\""},
-                              {"manifest.json", "\"scene\": \"compare --live"}});
+  require_own_folder(output, {{"manifest.json", is_live ? "\"scene\": \"compare --live"
+                                                        : "\"scene\": \"compare\""}});
   if (RunFolder(output).has_run())  // the run of a scene called compare
     throw Error(output.string() + ": holds a run: give a folder that is new or empty");
-  if (!options.external.empty() && !options.live.scene.empty())
-    throw UsageError("compare: --external: not with --live, whose solver works inside the step");
   restart_with_one_algebra_thread();
   options.program_limits.memory_MB = options.comparison.limits.memory_MB;
   std::vector<ComparedSolver> programs;
@@ -260,13 +263,13 @@ ExitCode compare(CompareRequest& options) {
     throw UsageError("compare: --solvers none: expected a program that solves, --external");
   options.comparison.command = own_command();
   // A word that names no case or scene throws before a folder is made.
-  if (!options.live.scene.empty()) resolve_run(options.live.scene, options.live.overrides);
+  if (is_live) resolve_run(options.live.scene, options.live.overrides);
   const std::vector<CompareCase> cases = compare_cases(options.cases);
   create_folder(output);
   const FileLock lock(output / "compare.lock", briefly);
   lock.require_held();
+  if (is_live) return compare_live(options);
   std::filesystem::remove(output / "results.csv");  // left by an earlier command with its manifest
-  if (!options.live.scene.empty()) return compare_live(options);
   const InterruptGuard guard;
   // Destroyed before `guard`: the programs and their folders go while SIGPIPE is still ignored.
   const CompareOptions comparison = std::exchange(options.comparison, {});
@@ -314,33 +317,37 @@ Command compare_command() {
   const auto options = std::make_shared<CompareRequest>();
   CompareOptions& comparison = options->comparison;
   comparison.exact_seconds = 5.0;
-  comparison.folder = "results/compare";
+  comparison.folder.clear();
+  const Rule not_live = excludes("--live");  // whose solvers work inside the step
   Command command{
       "compare",
       "Compares backends (solvers) on identical problems: accuracy against cost, figures, a page",
-      {{"cases", &options->cases, "Files, folders, patterns, known:..., pile:..., stress:..."},
-       {"--solvers", into(comparison.solvers, parse_solvers, "all"),
+      {{"--solvers", into(comparison.solvers, parse_solvers, "all"),
         "Names of backends, separated by commas; all; or none (external programs alone)"},
        {"--external NAME=COMMAND", &options->external,
-        "Adds a program that solves, or FILE.toml with a list of them (docs/manual/external.md)"},
+        "Adds a program that solves, or FILE.toml with a list of them (docs/manual/external.md)",
+        not_live},
        {"--startup-seconds", &options->program_limits.startup_seconds,
-        "Wall clock [s] for such a program to start and read, besides --max-seconds", at_least(0)},
+        "Wall clock [s] for such a program to start and read, besides --max-seconds", at_least(0),
+        not_live},
        {"--tolerances", into(comparison.tolerances, parse_tolerances, "1e-4,1e-8"),
         "Bounds on the error, separated by commas; none: only --live with --iterations"},
        {"--starts", into(comparison.starts, parse_starts, "cold"),
-        "cold (from zero), warm (only cases that have a warm start) or cold,warm"},
+        "cold (from zero), warm (only cases that have a warm start) or cold,warm", not_live},
        {"--measure", into(comparison.measure, measure_of, "natural_map"),
-        "The error that the tolerances bound: natural_map or fclib (see below)"},
-       {"--repeats", &comparison.repeats, "Interleaved repeats; tables show medians", at_least(1)},
+        "The error that the tolerances bound: natural_map or fclib (see below)", not_live},
+       {"--repeats", &comparison.repeats, "Interleaved repeats; tables show medians", at_least(1),
+        not_live},
        {"--max-seconds", &comparison.max_seconds,
         "Limit on the wall clock of one solve, preparation included [s]", above(0)},
        {"--exact-seconds", &comparison.exact_seconds,
         "Wall clock [s] to find each case's solution at 1e-9, for distances from it; 0: no search",
-        at_least(0)},
+        at_least(0), not_live},
        {"--memory", &comparison.limits.memory_MB,
-        "Limit on the address space of one child process [MB]; 0: no limit", at_least(0)},
-       {"--output DIR", &comparison.folder, "Folder of the results"},
-       {"--no-report", &options->report, "Draws no figures and no page"},
+        "Limit on the address space of one child process [MB]; 0: no limit", at_least(0), not_live},
+       {"--output DIR", &comparison.folder,
+        "Folder of the results (default: results/compare; with --live results/compare_live)"},
+       {"--no-report", &options->report, "Draws no figures and no page", not_live},
        {"--quiet", &options->is_quiet, "Prints nothing but failures"}},
       [options] { return compare(*options); },
       {compare_diff_command(),
@@ -350,8 +357,12 @@ Command compare_command() {
        merging_command("ranking", "Ranks backends: what each solves, how fast; a page and a table",
                        "results/ranking", "index.html", write_ranking),
        collect_command()}};
-  const std::vector<Word> more = live_words(options->live);
-  command.words.insert(command.words.end(), more.begin(), more.end());
+  // before the words that exclude --live
+  std::vector<Word> words = live_words(options->live);
+  words.insert(words.begin(), {"cases", &options->cases,
+                               "Files, folders, patterns, known:..., pile:..., stress:..."});
+  words.insert(words.end(), command.words.begin(), command.words.end());
+  command.words = std::move(words);
   return command;
 }
 

@@ -189,6 +189,9 @@ ExitCode reproduce(PaperOptions options) {
   targets.insert(targets.end(), run_targets.begin(), run_targets.end());
   if (std::ranges::find(targets, options.target) == targets.end())
     throw UsageError("paper: '" + options.target + "' is none of " + joined(targets));
+  if (options.target == "archive" &&
+      !(options.campaign.scene.empty() && options.campaign.overrides.empty()))
+    throw UsageError("paper archive: not with --scene or --set: its plan would not make its rows");
   if (options.output.empty())
     options.output = options.running.results / (options.target == "archive" ? "archive" : "report");
   PaperData known = data_of(campaign, options);

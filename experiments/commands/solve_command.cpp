@@ -81,6 +81,12 @@ std::filesystem::path answer_of(const std::string& file, const std::filesystem::
   return where / std::filesystem::path(file).filename().replace_extension(".hdf5");
 }
 
+/// Throws Error where a file is there that is no answer.
+void require_answer_place(const std::filesystem::path& target) {
+  if (is_file(target) && !Hdf5Reader(target).has("/ballast_answer"))
+    throw Error(target.string() + ": is no answer of Ballast: it would be written over");
+}
+
 /// Checks before any solve that every answer has a file of its own, new or an earlier answer.
 void require_place(const SolveOptions& options) {
   std::map<std::filesystem::path, std::string> answered;
@@ -89,8 +95,7 @@ void require_place(const SolveOptions& options) {
     const auto [before, is_new] = answered.try_emplace(target, file);
     if (!is_new)
       throw Error(target.string() + ": holds the answer to " + before->second + " already");
-    if (is_file(target) && !Hdf5Reader(target).has("/ballast_answer"))
-      throw Error(target.string() + ": is no answer of solve: it would be written over");
+    require_answer_place(target);
     if (target.has_parent_path()) create_folder(target.parent_path());
   }
 }
@@ -202,7 +207,8 @@ ExitCode verdict(const std::vector<SolvedFile>& solved) {
   for (const SolvedFile& s : solved) {
     if (s.run.is_solved()) continue;
     ++count;
-    only_time = only_time && s.refused.empty() && s.run.solved.reason == StopReason::time_limit;
+    only_time = only_time && (s.refused == "out_of_time" ||
+                              (s.refused.empty() && s.run.solved.reason == StopReason::time_limit));
     add_to_list(failures, s.refused.empty() ? s.file + " (" + s.words + ")"
                                             : s.words + " (" + s.refused + ")");
   }
@@ -251,7 +257,8 @@ ExitCode solve(const SolveOptions& options) {
     else
       print_row(solved.back(), width);
   }
-  if (options.json) std::cout << rows.dump(2) << '\n';
+  if (options.json)
+    std::cout << rows.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
   return verdict(solved);
 }
 
@@ -289,6 +296,7 @@ void answer_file(const std::filesystem::path& problem, const std::filesystem::pa
   const ExternalRequest request = read_request(problem);
   if (path_exists(answer) && std::filesystem::equivalent(problem, answer))
     throw Error(answer.string() + ": is the request itself: the answer needs another file");
+  require_answer_place(answer);
   write_answer(answer, request, answer_to(request, make));
 }
 

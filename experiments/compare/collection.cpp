@@ -95,7 +95,9 @@ class Collection {
     return run(running).code;
   }
 
+  /// Writes the problems; those of an earlier list go.
   static void make_problems(const CollectedRun& wanted, const fs::path& folder) {
+    std::set<fs::path> made_here;
     for (const CompareCase& made : compare_cases({wanted.made})) {
       const fs::path file = folder / made_name(wanted.family, made.name);
       FrictionProblem problem = made.load().problem;
@@ -104,7 +106,11 @@ class Collection {
       round_entries(problem.dynamics);
       create_folder(folder);
       write_problem(file, problem);
+      made_here.insert(file);
     }
+    if (!made_here.empty())
+      for (const FoundProblem& found : find_problems(folder.string()))
+        if (!made_here.contains(found.file)) fs::remove(found.file);
   }
 
   /// Copies a problem to its place, adds it to the manifest and looks for its reference.

@@ -58,15 +58,17 @@ struct Start : PreparedRun {
   std::string key;  ///< of its checkpoint's content
 };
 
-/// Runs the scene with its own solver to the common start, in a folder of its own. It is an
-/// ordinary run, which is resumed if it is there.
+/// Runs the scene with its own solver to the common start, in a folder of its own for each start.
+/// It is an ordinary run, which is resumed if it is there.
 Start make_start(const LiveOptions& options, const Scene& scene) {
   RunOptions run_options;
   run_options.scene = options.scene;
   run_options.overrides = options.overrides;
   run_options.overrides.push_back(
       printed("scene.duration=%.17g", std::max(options.start, scene.step)));
-  run_options.output = options.folder / "start";
+  std::string which = run_options.scene;
+  for (const std::string& one : run_options.overrides) which += '\n' + one;
+  run_options.output = options.folder / ("start_" + content_key(which));
   run_options.packing_cache =
       options.packing_cache.empty() ? options.folder / "packings" : options.packing_cache;
   run_options.style = options.style;

@@ -86,6 +86,11 @@ TEST_CASE("Scaling deposits boxes of tiles, and measures each in its own process
     CHECK(p.value("step") >= p.value("detect"));
     CHECK(p.value("memory") > 0.0);
   }
+  // What goes wrong in the process is said.
+  const auto file = cache.write("file", "");
+  CHECK_THROWS_WITH(
+      measure_scaling(tiny_box().scene, file, options, [](const ScalingPoint&) {}),
+      Catch::Contains("bench scaling: 12 grains: ") && Catch::Contains(file.string()));
 }
 
 TEST_CASE("A settled box rests behind walls that stand still") {

@@ -159,4 +159,19 @@ TEST_CASE("a page of results that cannot be measured says why") {
                 ExitCode::failure, {"other measures no 'wall'"});
   check_failure(complaint("<!--\nother x1: beside\n-->\n", {"--beside", "echo none"}),
                 ExitCode::failure, {"'echo none'", "its last word is no number"});
+  // The other program is found from the folder of the user, and its complaint is shown.
+  const ProgramResult found = ballast_in_shell(
+      "cd '" + folder.path().string() + "' && echo 'echo 2.5' > other.sh && \"$@\"",
+      {"bench", "all", "--page",
+       folder
+           .write("page.md",
+                  "<!--\nother x1: beside\n-->\n"
+                  "{{other: step}}\n")
+           .string(),
+       "--output", "mine", "--beside", "sh ./other.sh"});
+  INFO(found.errors);
+  CHECK(found.status == 0);
+  CHECK(read_whole_file(folder.path() / "mine" / "results.md") == "2.5\n");
+  check_failure(complaint("<!--\nother x1: beside\n-->\n", {"--beside", "cat /no/such/file"}),
+                ExitCode::failure, {"'cat /no/such/file' failed", "No such file"});
 }

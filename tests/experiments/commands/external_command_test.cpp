@@ -180,6 +180,9 @@ TEST_CASE("solve asks a program, and says what is wrong with the words") {
       ballast_program({"solve", file.string(), "--external", "silent=true"});
   for (const std::string& said : {silent.output, silent.errors})
     CHECK_THAT(said, Contains("silent: ") && Contains("no such file"));
+  check_failure(ballast_program({"solve", file.string(), "--external",
+                                 "slow=sleep 40; :", "--max-seconds", "0.1"}),
+                ExitCode::time_limit, {"(out_of_time)"});
   check_failure(ballast_program({"solve", file.string(), "--external", "nothing"}), ExitCode::usage,
                 {"--external", "expected name=command"});
   check_failure(ballast_program({"compare", "known:", "--external", "pgs=true"}), ExitCode::usage,
@@ -188,6 +191,16 @@ TEST_CASE("solve asks a program, and says what is wrong with the words") {
                 {"expected PROBLEM and ANSWER, or --serve"});
   check_failure(ballast_program({"answer", file.string(), file.string()}), ExitCode::failure,
                 {"is no request"});
+  // An answer takes no place that holds something else.
+  const fs::path request = folder.path() / "request.hdf5",
+                 notes = folder.write("notes.txt", "mine");
+  const FrictionProblem problem = read_problem(file);
+  write_request(request, {.problem = problem, .start = Impulses::Zero(problem.row_count())});
+  for (const fs::path& place : {notes, file})
+    check_failure(ballast_program({"answer", request.string(), place.string()}), ExitCode::failure,
+                  {place.filename().string()});
+  CHECK(read_whole_file(notes) == "mine");
+  CHECK(read_problem(file).contact_count() == 8);
 }
 
 TEST_CASE("the example in Python solves") {

@@ -58,6 +58,15 @@ TEST_CASE("solve keeps its answer and starts from it") {
                 {"none.hdf5: no such file (no_start)"});
 }
 
+TEST_CASE("a file's name that is no UTF-8 is shown as far as it is") {
+  const ProblemFolder c;
+  const fs::path odd = c.folder.path() / "caf\xe9.hdf5";
+  fs::copy_file(c.in / "a.hdf5", odd);
+  const ProgramResult result = ballast_program({"solve", odd.string(), "--json"});
+  INFO(result.errors);
+  CHECK_THAT(result.output, Catch::Contains("\"verdict\": "));
+}
+
 TEST_CASE("solve replaces nothing but an older answer") {
   const ProblemFolder c;
   const std::string a = (c.in / "a.hdf5").string(), b = (c.in / "deep" / "b.hdf5").string(),
@@ -70,7 +79,7 @@ TEST_CASE("solve replaces nothing but an older answer") {
     check_failure(result, ExitCode::failure, {named});
     CHECK_FALSE(Catch::Contains("unreadable").match(result.errors + result.output));
   };
-  fails({"--output", a}, "a.hdf5: is no answer of solve: it would be written over");
+  fails({"--output", a}, "a.hdf5: is no answer of Ballast: it would be written over");
   fails({"--output", b}, "b.hdf5: is no answer");
   fails({"--output", text}, "min.toml: cannot make the folder");
   fails({(c.out / "a.hdf5").string(), "--output", (c.folder.path() / "new").string()},

@@ -73,6 +73,30 @@ TEST_CASE("no command writes over files of somebody's, and each may be repeated"
   }
 }
 
+TEST_CASE("a comparison and a list keep what another command put there") {
+  const TemporaryFolder folder;
+  const std::string output = folder.path() / "compared";
+  REQUIRE(ballast_program({"compare", "known:bodies=3,contacts=4", "--solvers", "pgs",
+                           "--exact-seconds", "0", "--no-report", "--quiet", "--output", output})
+              .status == 0);
+  const std::string rows = read_whole_file(output + "/results.csv");
+  check_failure(ballast_program({"compare", "--live", "incline", "--from", "0.001", "--duration",
+                                 "0.001", "--solvers", "pgs", "--output", output}),
+                ExitCode::failure, {output, "holds files"});
+  CHECK(read_whole_file(output + "/results.csv") == rows);
+  for (const char* option : {"--repeats=2", "--starts=warm", "--no-report", "--memory=1"})
+    check_failure(ballast_program({"compare", "--live", "incline", option}), ExitCode::usage,
+                  {"--live"});
+
+  const std::string collection = folder.path() / "collection",
+                    list = "[[family]]\nname = \"pile\"\nmade = [\"pile:contacts=9\"]\n";
+  create_folder(collection);
+  write_whole_file(collection + "/collection.toml", list);
+  check_failure(ballast_program({"compare", "collect", "--output", collection}), ExitCode::failure,
+                {"collection.toml: is another list", "--list"});
+  CHECK(read_whole_file(collection + "/collection.toml") == list);
+}
+
 TEST_CASE("a scene of one's own made from a printed one has results of its own") {
   const TemporaryFolder folder;
   for (const char* how : {"", "--resolved"}) {

@@ -56,6 +56,11 @@ TEST_CASE("One start under several backends and tolerances") {
   const TemporaryFolder folder;
   const LiveOptions options = small_live(folder.path());
   const auto run = [&] { return run_live(options, [](const Trajectory&) { return true; }); };
+  LiveOptions earlier = options;  // another start in the same folder
+  earlier.start = 1e-3;
+  earlier.duration = 2e-4;
+  earlier.solvers = parse_solvers("pgs");
+  run_live(earlier, [](const Trajectory&) { return true; });
   const LiveComparison comparison = run();
   REQUIRE(comparison.trajectories.size() == 4);
   CHECK(comparison.has_driven_wall);
