@@ -7,9 +7,10 @@ set tics nomirror out scale 0.6 tc rgb '#1a1a1a'
 set grid lw 0.6 lt 1 lc rgb '#e0e0e0'
 set xdata time
 set timefmt '%Y-%m-%d'
-set format x '%d Nov'
-set xtics 172800
-set xrange ['2026-11-20':'2026-11-28']
+set format x '%d %b'
+set xtics 345600
+set xrange ['2026-11-20':*]
+set offsets graph 0, graph 0.05, 0, 0
 set key outside bottom center vertical maxrows 3 samplen 1.2
 # date and value of a quantity; machines side by side
 of(name) = sprintf("< awk -v name=\"%s\" 'index($0, name) { print $1 \",\" $NF }' FS=, history.csv", name)
