@@ -124,8 +124,15 @@ void add_command(CLI::App& app, const std::string& path, Command& command, Comma
   for (Command& part : command.parts) add_command(*added, path + ' ' + part.name, part, chosen);
   // CLI11 calls a subcommand back before the command above it, which then has nothing to do.
   if (command.act)
-    added->require_subcommand(0, 1)->callback([&command, &chosen] {
-      if (!chosen) chosen = &command;
+    added->require_subcommand(0, 1)->callback([&command, &chosen, added] {
+      if (!chosen) {
+        chosen = &command;
+        return;
+      }
+      for (const CLI::Option* option : added->get_options())
+        if (option->count() > 0)
+          throw CLI::ValidationError(option->get_name(), "a word of '" + command.name +
+                                                             "', not of '" + chosen->name + "'");
     });
   else
     added->require_subcommand(1);

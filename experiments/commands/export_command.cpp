@@ -107,7 +107,7 @@ ExitCode export_frames(const ExportOptions& options) {
 /// The folder of the run that a checkpoint, or one of its states, belongs to.
 fs::path run_of(const fs::path& checkpoint) {
   const fs::path folder = fs::absolute(checkpoint).lexically_normal().parent_path();
-  return folder.filename() == "states" ? folder.parent_path() : folder;
+  return RunFolder(folder.parent_path()).has_run() ? folder.parent_path() : folder;
 }
 
 ExitCode export_run(const ExportOptions& options) {

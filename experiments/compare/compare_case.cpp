@@ -155,7 +155,7 @@ class MadeWord {
     const auto found = values_.find(name);
     if (found == values_.end()) return;
     if (!(found->second >= least)) fail(std::string(name) + ": too small");
-    if (!(found->second <= most)) fail(name + printed(": at most %.0f", most));
+    if (!(found->second <= most)) fail(name + printed(": at most %.10g", most));
     value =
         static_cast<Number>(std::is_integral_v<Number> ? std::round(found->second) : found->second);
     values_.erase(found);
@@ -188,17 +188,24 @@ void add_seeded(MadeWord& word, Settings settings, const Make& make,
   }
 }
 
+template <typename Settings>
+void take_friction(MadeWord& word, Settings& settings) {
+  word.take("friction_min", settings.friction_min);
+  settings.friction_max = std::max(settings.friction_min, settings.friction_max);
+  word.take("friction_max", settings.friction_max, settings.friction_min);
+}
+
 void add_known_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   if (!word.what().empty()) word.fail(word.what() + ": expected name=value");
   KnownSolutionSettings settings;
   word.take("bodies", settings.bodies, 2);
   word.take("contacts", settings.contacts, 1);
   word.take("mass_ratio", settings.mass_ratio, 1.0);
-  word.take("friction_min", settings.friction_min);
-  word.take("friction_max", settings.friction_max);
-  word.take("open", settings.open_fraction);
-  word.take("slip", settings.slip_fraction);
-  word.take("frictionless", settings.frictionless_fraction);
+  take_friction(word, settings);
+  word.take("open", settings.open_fraction, 0.0, 1.0);
+  settings.slip_fraction = std::min(settings.slip_fraction, 1.0 - settings.open_fraction);
+  word.take("slip", settings.slip_fraction, 0.0, 1.0 - settings.open_fraction);
+  word.take("frictionless", settings.frictionless_fraction, 0.0, 1.0);
   word.take("copies", settings.copies, 1);
   const auto make = [](const KnownSolutionSettings& s) {
     return CompareCase{printed("known-b%d-c%dx%d-R%g-s%llu", s.bodies, s.contacts, s.copies,
@@ -235,11 +242,7 @@ void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
   word.take("redundancy", settings.redundancy);
   if (settings.redundancy >= 1.0) word.fail("redundancy: expected a number below 1");
   word.take("mass_ratio", settings.mass_ratio, 1.0);
-  word.take("friction_min", settings.friction_min);
-  settings.friction_max = std::max(settings.friction_min, settings.friction_max);
-  word.take("friction_max", settings.friction_max);
-  if (settings.friction_max < settings.friction_min)
-    word.fail("friction_max: expected at least friction_min");
+  take_friction(word, settings);
   word.take("active", settings.active, 0.0, 1.0);
   word.take("slenderness", settings.slenderness, 1e-3);
   word.take("shear", settings.shear);

@@ -66,6 +66,10 @@ TEST_CASE("export takes its format from the suffix, one time, or all") {
                           exported(run / "states" / "step_00000200.bin", folder.path() / "a.obj");
   for (const ProgramResult& said : {at, kept})
     CHECK_THAT(said.output, Catch::Contains("state at 0.2 s, step 200"));
+  // A run's folder may have the name of that of states.
+  const fs::path named = folder.path() / "states";
+  fs::copy(run, named, fs::copy_options::recursive);
+  CHECK(exported(named / "checkpoint.bin", folder.path() / "b.obj").status == 0);
   const fs::path stray = run / "states" / "step_00000100.bin";
   Checkpoint other = read_checkpoint(stray);
   other.key = "other";

@@ -164,7 +164,8 @@ TEST_CASE("Words that make no case are refused by name") {
   for (const std::string word :
        {"known:bodies=x", "known:colour=3", "known:contacts=0", "known:bodies", "known:bodies=-1",
         "known:bodies=1e10", "known:count=1e8", "known:copies=1e9", "stress:", "stress:pile",
-        "stress:all,weight=3", "stress:all,chain"})
+        "stress:all,weight=3", "stress:all,chain", "known:open=2", "known:open=0.7,slip=0.7",
+        "known:friction_min=0.5,friction_max=0.1"})
     CHECK_THROWS_WITH(compare_cases({word}), Catch::StartsWith(word + ": "));
 }
 
