@@ -57,7 +57,7 @@ bool is_missing() { return Browser::is_missing() || !page::has_chart_library(); 
 /// The cells of the table's body as text, rows separated by "|".
 Json cells(Browser& browser, const std::string& table) {
   return browser.js("[...document.querySelectorAll('" + table +
-                    " tbody tr')].map((r) => [...r.cells].map((c) => c.innerText.trim()).join("
+                    " tbody tr')].map((r) => [...r.cells].map((c) => c.textContent.trim()).join("
                     "' ')).join('|')");
 }
 
