@@ -59,18 +59,23 @@ struct MemoryFile : Descriptor {
   }
 };
 
-/// Ends an answer that is whole: a child that dies on the way leaves less.
-constexpr std::string_view whole_answer = "\x1bwhole answer\x1b";
+/// Ends an answer or the words of an exception: a child that dies on the way leaves less.
+constexpr std::string_view whole_answer = "\x1bwhole answer\x1b", whole_words = "\x1bits words\x1b";
 
 bool expendable = false;
 
-/// Runs in the child: writes the answer into the file and discards all that is printed.
+/// Runs in the child: writes its answer, or why it has none, and discards all that is printed.
 void answer_into(int file, const std::function<std::string()>& work) {
   expendable = true;
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  const std::string answer = work().append(whole_answer);
+  std::string answer;
+  try {
+    answer = work().append(whole_answer);
+  } catch (const std::exception& error) {
+    answer = std::string(error.what()).append(whole_words);
+  }
   _exit(write(file, answer.data(), answer.size()) == static_cast<ssize_t>(answer.size()) ? 0 : 1);
 }
 
@@ -88,9 +93,13 @@ ChildResult run_in_child(double max_seconds, const std::function<std::string()>&
     if (watch.has_passed(max_seconds) || (is_cancelled && is_cancelled()))
       return {ChildEnd::out_of_time, ""};  // the destructor kills the child
   std::string answer = file.text();
-  if (!answer.ends_with(whole_answer)) return {ChildEnd::crashed, ""};
-  answer.resize(answer.size() - whole_answer.size());
-  return {ChildEnd::complete, std::move(answer)};
+  for (const auto& [end, mark] :
+       {std::pair(ChildEnd::complete, whole_answer), {ChildEnd::failed, whole_words}})
+    if (answer.ends_with(mark)) {
+      answer.resize(answer.size() - mark.size());
+      return {end, std::move(answer)};
+    }
+  return {ChildEnd::crashed, ""};
 }
 
 ChildProcess::ChildProcess(const std::function<void()>& live) {

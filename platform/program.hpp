@@ -12,17 +12,18 @@
 
 namespace ballast {
 
-enum class ChildEnd { complete, out_of_time, crashed };
+enum class ChildEnd { complete, failed, out_of_time, crashed };
 
 struct ChildResult {
   ChildEnd end = ChildEnd::crashed;
-  std::string answer;  ///< the bytes that `work` returned there; empty unless complete
+  /// Complete: the bytes that `work` returned there. Failed: what() of the exception that it threw.
+  std::string answer;
 };
 
 /// Runs `work` in a forked child and waits for the bytes that it returns (platform/pack.hpp makes
 /// and reads them), at most `max_seconds` of wall clock; then the child is killed. Only an answer
 /// that arrived whole counts, whatever the exit code says (Debian's Ipopt can die with code 0). The
-/// child prints nothing and lets no exception out. `is_cancelled`, if not empty, is called here
+/// child prints nothing. `is_cancelled`, if not empty, is called here
 /// twenty times a second; true ends the time. Throws Error when no process can be made.
 ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work,
                          const std::function<bool()>& is_cancelled = {});

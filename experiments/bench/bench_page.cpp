@@ -230,11 +230,16 @@ bool run_stage(const BenchStage& stage, const BenchAll& options, int turn) {
   return true;
 }
 
+/// Whether the stage is this program's, or another one's that is given.
+bool is_asked(const BenchStage& stage, const BenchAll& options) {
+  return !stage.words.empty() || !options.beside.empty();
+}
+
 /// The numbers of the turns that have been measured.
-StageNumbers numbers_of(const BenchPage& page) {
+StageNumbers numbers_of(const BenchPage& page, const BenchAll& options) {
   StageNumbers all;
   for (const BenchStage& stage : page.stages)
-    for (int turn = 1; turn <= stage.turns; ++turn)
+    for (int turn = 1; turn <= stage.turns && is_asked(stage, options); ++turn)
       if (const fs::path folder = folder_of(stage, turn); path_exists(folder / "measured_by"))
         for (const auto& [name, value] : read_stage(stage, folder))
           all[stage.name][name].push_back(value);
@@ -307,11 +312,11 @@ void measure_page(const BenchAll& options, std::string_view text) {
   const int most = std::ranges::max(page.stages, {}, &BenchStage::turns).turns;
   for (int turn = 1; turn <= most; ++turn)
     for (const BenchStage& stage : page.stages) {
-      if (turn > stage.turns || (stage.words.empty() && options.beside.empty())) continue;
+      if (turn > stage.turns || !is_asked(stage, options)) continue;
       if (!run_stage(stage, options, turn))
         throw Error("bench all: interrupted; the same command goes on");
     }
-  write_page(page, page_numbers(page, numbers_of(page)));
+  write_page(page, page_numbers(page, numbers_of(page, options)));
 }
 
 }  // namespace

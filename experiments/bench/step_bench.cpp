@@ -253,6 +253,7 @@ std::pair<int, int> tiles_for(long grains, int of_tile) {
 std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesystem::path& cache,
                                           const ScalingOptions& options,
                                           const std::function<void(const ScalingPoint&)>& said) {
+  require_backends(tile);  // here, for the exit code of one that is missing
   std::vector<ScalingPoint> points;
   for (const int grains : options.grains)
     for (const int threads : options.threads) {
@@ -264,22 +265,12 @@ std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesyst
       point.grains = scene.grains->count;
       const auto in_child = [&](const std::function<std::string()>& work) {
         constexpr double day = 86400.0;  // [s]
-        // its first character: whether the rest is the answer or what went wrong
-        const ChildResult child = run_in_child(day, [&] {
-          try {
-            return "+" + work();
-          } catch (const std::exception& error) {
-            return std::string("-") + error.what();
-          }
-        });
-        if (child.end != ChildEnd::complete)
-          throw Error(
-              printed("bench scaling: %.0f grains: the child ", point.grains) +
-              (child.end == ChildEnd::out_of_time ? "ran out of time" : "died (out of memory?)"));
-        if (child.answer[0] == '-')
-          throw Error(printed("bench scaling: %.0f grains: ", point.grains) +
-                      child.answer.substr(1));
-        return child.answer.substr(1);
+        const ChildResult child = run_in_child(day, work);
+        if (child.end == ChildEnd::complete) return child.answer;
+        throw Error(printed("bench scaling: %.0f grains: ", point.grains) +
+                    (child.end == ChildEnd::failed        ? child.answer
+                     : child.end == ChildEnd::out_of_time ? "the child ran out of time"
+                                                          : "the child died (out of memory?)"));
       };
       in_child([&] { return deposited_box(scene, cache).packing.key; });
       const std::string answer = in_child([&] {

@@ -159,7 +159,7 @@ std::string complaint(const CLI::App& program, int argc, const char* const* argv
                       std::string found) {
   // a rule has already checked that it is a number
   if (const std::string cli = "Could not convert: "; found.starts_with(cli))
-    found = found.substr(cli.size()) + " is not a whole number";
+    found = found.substr(cli.size()) + " is no whole number that fits";
   const CLI::App* at = &program;
   std::string path = program.get_name(), unknown;
   for (int k = 1; k < argc && unknown.empty(); ++k) {

@@ -145,9 +145,16 @@ struct ViewOptions {
 
 ViewData view_of(const ViewOptions& options) {
   const fs::path path = options.thing;
-  if (RunFolder(path).has_run()) return run_view(path);
-  if (is_mesh_file(path)) return view_of_mesh(path);
-  if (is_problem_file(path)) {
+  const bool is_run = RunFolder(path).has_run(), is_mesh = is_mesh_file(path),
+             is_problem = is_problem_file(path);
+  if (!is_problem && options.question != ErrorQuestion{})
+    throw UsageError(path.string() +
+                     ": --solver, --iterations and --warm go with a captured problem alone");
+  if ((is_run || is_mesh || is_problem) && !options.overrides.empty())
+    throw UsageError(path.string() + ": --set goes with a scene alone");
+  if (is_run) return run_view(path);
+  if (is_mesh) return view_of_mesh(path);
+  if (is_problem) {
     if (!is_captured(path)) {
       read_problem(path);  // throws where it is no problem at all
       throw Error(path.string() +

@@ -48,7 +48,7 @@ struct CheckOptions {
 
 std::string check_scene(const std::string& file, const CheckOptions& options) {
   const Scene scene = resolve_run(file, options.overrides).scene;
-  make_solver(scene.solver.name);
+  require_backends(scene);
   const std::string what =
       scene.grains
           ? printed("%d grains in a box of %g m x %g m, driven at %g Hz", scene.grains->count,

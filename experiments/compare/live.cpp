@@ -137,7 +137,7 @@ void step_in_child(const LiveOptions& options, const Scene& scene, const Start& 
       step_on(options, scene, start, solver, made);
     } catch (const UnsupportedProblem& error) {
       made.ended = std::string("the backend cannot take the problem: ") + error.what();
-    } catch (const std::exception& error) {
+    } catch (const std::exception& error) {  // the steps before it are kept
       made.ended = std::string("failed: ") + error.what();
     }
     return packed(made);

@@ -159,7 +159,9 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
     const bool is_late = child.end == ChildEnd::out_of_time;
     clear_measures(row);
     row.verdict = is_late ? Verdict::timeout : Verdict::crashed;
-    row.note = is_late ? "killed: did not stop at the time limit" : "the child process died";
+    row.note = is_late                         ? "killed: did not stop at the time limit"
+               : child.end == ChildEnd::failed ? child.answer
+                                               : "the child process died";
     row.solve_seconds = is_late ? most_seconds : 0.0;
     return;
   }

@@ -27,6 +27,11 @@ ResolvedScene resolve_run(const std::string& scene, const std::vector<std::strin
   return resolved;
 }
 
+void require_backends(const Scene& scene) {
+  make_solver(scene.solver.name);
+  if (scene.grains) make_solver(scene.deposit.solver);
+}
+
 bool prepare_run(const Scene& scene, const PackingOptions& order, Manifest& manifest,
                  PreparedRun& run) {
   if (scene.grains) {
@@ -64,9 +69,7 @@ class Run {
                                        : options.output),
         manifest_(resolved_.scene.name, options.overrides, resolved_.key) {
     resolved_.scene.solver.threads = options.threads;
-    // A missing backend is reported before anything is written.
-    make_solver(scene_.solver.name);
-    if (scene_.grains) make_solver(scene_.deposit.solver);
+    require_backends(scene_);  // before anything is written
   }
 
   RunEnd execute() {
@@ -119,7 +122,8 @@ class Run {
   bool is_finished() const {
     if (!options_.resume || !folder_.has_run() || !folder_.is_finished(resolved_.key)) return false;
     if (options_.style != Progress::Style::quiet)
-      std::cout << folder_.path().string() << ": finished already" << std::endl;
+      std::cout << folder_.path().string() << ": finished already"
+                << (options_.capture.to > 0 ? ": no step is left to capture" : "") << std::endl;
     return true;
   }
 

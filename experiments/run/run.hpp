@@ -18,6 +18,9 @@ namespace ballast {
 /// that the scene gives; a known solver may be missing in this build.
 ResolvedScene resolve_run(const std::string& scene, const std::vector<std::string>& overrides);
 
+/// Throws MissingSolver where this build lacks a backend of the scene.
+void require_backends(const Scene& scene);
+
 struct RunOptions {
   std::string scene;                   ///< name or path
   std::vector<std::string> overrides;  ///< "dotted.key=value"

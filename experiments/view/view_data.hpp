@@ -74,6 +74,7 @@ struct ErrorQuestion {
   std::vector<std::string> backends = {"pgs", "auto"};
   int most_iterations = 1000;
   bool is_warm = false;  ///< from the captured start; else from zero
+  bool operator==(const ErrorQuestion&) const = default;
 };
 
 /// Returns the bodies of a captured problem with its contacts and forces, and the judge's error of

@@ -57,7 +57,7 @@ bool answer_apart(const Budget& left, const std::function<bool(RoundAnswer&)>& c
     return packer.bytes();
   };
   const ChildResult child = run_in_child(left.max_seconds, work, left.is_cancelled);
-  if (child.answer.empty()) return false;
+  if (child.end != ChildEnd::complete || child.answer.empty()) return false;
   Unpacker unpacker(child.answer, "a child's answer");
   carry(unpacker, answer);
   unpacker.finish();

@@ -80,7 +80,14 @@ TEST_CASE("a child that ends without an answer has crashed, even with exit code 
   };
   CHECK(end_of([] { _exit(0); }) == ChildEnd::crashed);
   CHECK(end_of([] { raise(SIGKILL); }) == ChildEnd::crashed);
-  CHECK(end_of([] { throw std::runtime_error("lost"); }) == ChildEnd::crashed);
+}
+
+TEST_CASE("a child that throws has failed, and its words come back") {
+  const ChildResult result =
+      run_in_child(60.0, []() -> std::string { throw std::runtime_error("no way on"); });
+  CHECK(result.end == ChildEnd::failed);
+  CHECK(result.answer == "no way on");
+  CHECK(no_children());
 }
 
 TEST_CASE("a child that takes too long is killed") {

@@ -44,7 +44,8 @@ TEST_CASE("a wrong command line is exit code 2") {
       {{"run", scene, "--max-seconds", "nan"}, "--max-seconds"},
       {{"run", scene, "--max-seconds", "soon"}, "soon"},
       {{"solve"}, "files"},
-      {{"bench", "step", "incline", "--steps", "1.5"}, "--steps = 1.5 is not a whole number"},
+      {{"bench", "step", "incline", "--steps", "1.5"},
+       "--steps = 1.5 is no whole number that fits"},
       {{"solve", "p.hdf5", "--solver", "oracle"}, "oracle"},
       {{"solve", "p.hdf5", "--tolerance", "-1"}, "--tolerance"},
       {{"solve", "p.hdf5", "--tolerance", "inf"}, "--tolerance"},
@@ -247,5 +248,11 @@ TEST_CASE("a solver built without its library is exit code 4") {
     check_failure(
         ballast_program({"check", "incline", "--set", std::string("solver.name=") + entry.name}),
         ExitCode::backend_missing, {entry.name});
+    for (const char* command : {"check", "bench scaling"}) {
+      std::vector<std::string> words = split(command, ' ');
+      words.insert(words.end(),
+                   {"vibrated_box_small", "--set", std::string("deposit.solver=") + entry.name});
+      check_failure(ballast_program(words), ExitCode::backend_missing, {entry.name});
+    }
   }
 }

@@ -107,6 +107,10 @@ TEST_CASE("a page of results is measured by its own commands, once, and made aga
   CHECK(again.status == 0);
   CHECK_THAT(again.output, !Catch::Contains("step/1"));
   CHECK(read_whole_file(folder.path() / "all" / "results.md") == told);
+  // Without the other program its earlier times are not used.
+  CHECK(all({"--output", output}).status == 0);
+  CHECK_THAT(read_whole_file(folder.path() / "all" / "results.md"), Catch::StartsWith("|–|100|\n"));
+  CHECK(all(words).status == 0);
   const std::string copy = (folder.path() / "copy").string();
   CHECK(all({"--output", copy, "--rows", output + "/measured/numbers.csv"}).status == 0);
   CHECK(read_whole_file(folder.path() / "copy" / "results.md") == told);

@@ -127,6 +127,20 @@ TEST_CASE("a picture of a frame, and a page that shows a thing") {
                 {"nothing_of_that_name"});
 }
 
+TEST_CASE("a view refuses options of another kind of thing") {
+  const ProblemFolder c;
+  const std::string problem = c.in / "a.hdf5";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--solver", "pgs"}, {"--iterations", "10"}, {"--warm"}}) {
+    std::vector<std::string> all = {"view", "cradle"};
+    all.insert(all.end(), words.begin(), words.end());
+    check_failure(ballast_program(all), ExitCode::usage,
+                  {"cradle: --solver, --iterations and --warm go with a captured problem alone"});
+  }
+  check_failure(ballast_program({"view", problem, "--set", "scene.step=1"}), ExitCode::usage,
+                {"a.hdf5: --set goes with a scene alone"});
+}
+
 TEST_CASE("a view is not written over what it shows, and says what is no problem") {
   const ProblemFolder c;
   const fs::path problem = c.in / "a.hdf5", mesh = c.folder.path() / "box.obj",

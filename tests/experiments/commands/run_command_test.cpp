@@ -47,6 +47,18 @@ TEST_CASE("the default backend holds heavy boxes on light ones") {
                  Catch::Contains("the run has no step that --capture names"));
 }
 
+TEST_CASE("a finished run says that nothing is left to capture") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> words = {"run",         "incline",
+                                          "--set",       "scene.duration=0.01",
+                                          "--output",    folder.path() / "run",
+                                          "--no-report", "--continue",
+                                          "--capture",   "every=1000"};
+  CHECK_THAT(ballast_program(words).output, !Catch::Contains("finished already"));
+  CHECK_THAT(ballast_program(words).output,
+             Catch::Contains("run: finished already: no step is left to capture\n"));
+}
+
 TEST_CASE("a run that missed its tolerance ends with that, and strictly with exit code 1") {
   const ProgramResult run = run_heavy(hopeless);
   CHECK(run.status == 0);
