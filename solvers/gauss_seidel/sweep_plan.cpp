@@ -29,6 +29,7 @@ void SweepPlan::prepare(const FrictionProblem& problem) {
       [&](int begin, int end) { find_openings(problem, begin, end); },
       [&] { find_slabs(problem.dynamics); });
   order(problem);
+  share_slabs();
 }
 
 void SweepPlan::find_slabs(const DynamicsForm& dynamics) {
@@ -171,6 +172,28 @@ void SweepPlan::order(const FrictionProblem& problem) {
   for (int k = 0; k < parts; ++k)
     parts_.push_back(
         {count_[k * 2 * keys], count_[(k * 2 + 1) * keys], count_[(k + 1) * 2 * keys]});
+}
+
+/// Some ranges for each member, so that others can do what one that is late has not begun.
+void SweepPlan::share_slabs() {
+  constexpr int ranges_of_member = 4;
+  const int members = std::min(size_of(team_), slabs_),
+            ranges = members > 1 ? ranges_of_member * size_of(team_) : 1;
+  const auto contacts_of = [](const Part& part) {
+    return static_cast<long>(part.end - part.begin);
+  };
+  // A slab goes with the interface behind it.
+  const long total = static_cast<long>(contacts_.size());
+  long passed = 0;
+  edges_.assign(1, 0);
+  for (int slab = 0; slab < slabs_; ++slab) {
+    const long its =
+        contacts_of(parts_[slab]) + (slab + 1 < slabs_ ? contacts_of(parts_[slabs_ + slab]) : 0);
+    const long range = (2 * passed + its) * ranges / std::max(1L, 2 * total);
+    while (static_cast<long>(edges_.size()) <= range) edges_.push_back(slab);
+    passed += its;
+  }
+  edges_.resize(ranges + 1, slabs_);
 }
 
 void ContactGroups::make(std::span<const int> contacts, std::span<const int> body_a,

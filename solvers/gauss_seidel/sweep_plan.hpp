@@ -44,6 +44,19 @@ class SweepPlan {
   /// k]. No two interiors share a body; nor do two interfaces.
   const std::vector<Part>& parts() const { return parts_; }
 
+  /// Calls task(begin, end) for ranges of slabs that cover [0, slabs()), shared by the team: each
+  /// member has neighbouring slabs with about as many contacts as any other, the same in every
+  /// call.
+  template <typename Task>
+  void for_slabs(const Task& task) const {
+    run_parts(team_, static_cast<int>(edges_.size()) - 1, [&](int k) {
+      if (edges_[k] < edges_[k + 1]) task(edges_[k], edges_[k + 1]);
+    });
+  }
+  /// Where those ranges begin, and the end of the last; each member has as many of them. One range
+  /// where there is one slab.
+  const std::vector<int>& edges() const { return edges_; }
+
   /// Bodies of one slab: enough work between two meetings of the threads.
   static constexpr int slab_bodies = 500;
   /// Contacts that open more slowly than 2^-10 times the fastest stand among those that close: more
@@ -58,6 +71,7 @@ class SweepPlan {
   void find_openings(const FrictionProblem& problem, int begin, int end);
   int level_of(double opening) const;
   void order(const FrictionProblem& problem);
+  void share_slabs();
   WorkerTeam* team_ = nullptr;
   std::vector<int> ends_;  ///< bodies a and b of each contact between two that move
   std::vector<int> neighbour_begin_, neighbour_;  ///< bodies that share a contact
@@ -72,6 +86,7 @@ class SweepPlan {
   double widest_ = 0.0;          ///< the largest of them
   std::vector<int> contacts_;
   std::vector<Part> parts_;
+  std::vector<int> edges_;
 };
 
 /// Contacts in groups that are solved side by side: no two contacts of a group share a body, and

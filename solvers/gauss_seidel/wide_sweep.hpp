@@ -121,29 +121,35 @@ class WideSweep final : public ContactSweep {
   /// Calls task(part) for all interiors at the same time, then for all interfaces.
   template <typename Number, typename Task>
   void for_parts_in_phases(const State<Number>& state, const Task& task) {
+    plan_.for_slabs([&](int begin, int end) {
+      for (int slab = begin; slab < end; ++slab) task(parts_[slab]);
+    });
     Part* interfaces = parts_.data() + plan_.slabs();
-    run_parts(team_, plan_.slabs(), [&](int slab) { task(parts_[slab]); });
-    run_parts(team_, plan_.slabs() - 1, [&](int k) {
-      prefetch_shared(state, interfaces[k]);
-      task(interfaces[k]);
+    plan_.for_slabs([&](int begin, int end) {
+      for (int k = begin; k < std::min(end, plan_.slabs() - 1); ++k) {
+        prefetch_shared(state, interfaces[k]);
+        task(interfaces[k]);
+      }
     });
   }
   /// Calls task(number) for all parts, each slab followed by the interface behind it. Each thread
   /// has the same parts as in for_parts_in_phases().
   template <typename Task>
   void for_parts_by_slab(const Task& task) const {
-    run_parts(team_, plan_.slabs(), [&](int slab) {
-      task(slab);
-      if (slab + 1 < plan_.slabs()) task(plan_.slabs() + slab);
+    plan_.for_slabs([&](int begin, int end) {
+      for (int slab = begin; slab < end; ++slab) {
+        task(slab);
+        if (slab + 1 < plan_.slabs()) task(plan_.slabs() + slab);
+      }
     });
   }
-  /// Calls task(parts) for two of `parts` at a time, or for one where some thread would have none.
+  /// Calls task(parts) for one or two at a time of the slabs' parts, or of the interfaces'.
   template <typename Task>
   void for_pairs(std::span<Part> parts, const Task& task) {
-    const int count = static_cast<int>(parts.size()),
-              together = count >= 2 * size_of(team_) ? 2 : 1;
-    run_ranges(team_, count, together,
-               [&](int begin, int end) { task(parts.subspan(begin, end - begin)); });
+    plan_.for_slabs([&](int begin, int end) {
+      for (const int last = std::min(end, static_cast<int>(parts.size())); begin < last; begin += 2)
+        task(parts.subspan(begin, std::min(2, last - begin)));
+    });
   }
   template <typename Number>
   void prefetch_shared(const State<Number>& state, const Part& interface) const;

@@ -1,9 +1,11 @@
 #include "solvers/gauss_seidel/sweep_plan.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "platform/random.hpp"
 #include "platform/worker_team.hpp"
@@ -32,6 +34,19 @@ FrictionProblem long_box(int bodies, std::uint64_t seed) {
     d.body_a[c] = static_cast<int>(random.uniform() * (bodies - 20));
     d.body_b[c] = d.body_a[c] + 1 + static_cast<int>(random.uniform() * 19);
   }
+  return problem;
+}
+
+/// The same with its bodies numbered at random.
+FrictionProblem shuffled(FrictionProblem problem, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<int> number(problem.dynamics.body_count());
+  std::iota(number.begin(), number.end(), 0);
+  for (int i = static_cast<int>(number.size()) - 1; i > 0; --i)
+    std::swap(number[i], number[random.below(i + 1)]);
+  for (auto* side : {&problem.dynamics.body_a, &problem.dynamics.body_b})
+    for (int& body : *side)
+      if (body >= 0) body = number[body];
   return problem;
 }
 
@@ -151,6 +166,52 @@ TEST_CASE("a sweep's plan: contacts that open come last, those that open fastest
       opened += octave(i) > -none;
     }
   CHECK(opened > problem.contact_count() / 5);
+}
+
+TEST_CASE("each member has neighbouring slabs with about as many contacts as the others") {
+  // A third of the bodies are in a crowd that cannot be cut finely, at the end of a long box.
+  FrictionProblem problem = long_box(9000, 6);
+  Random random(6);
+  DynamicsForm& d = problem.dynamics;
+  for (int c = 0; c < problem.contact_count(); ++c)
+    if (d.body_a[c] >= 6000 && d.body_b[c] >= 6000)
+      d.body_b[c] = 6000 + random.below(d.body_a[c] - 5999);
+  for (int c = 0; c < problem.contact_count(); ++c)
+    if (d.body_a[c] == d.body_b[c]) d.body_b[c] = -1;
+  problem = shuffled(std::move(problem), 6);
+  for (const int members : {1, 2, 3}) {
+    WorkerTeam team;
+    team.resize(members);
+    SweepPlan plan;
+    plan.use_team(&team);
+    plan.prepare(problem);
+    const auto contacts_of = [&](int slab) {
+      return plan.parts()[slab].end - plan.parts()[slab].begin;
+    };
+    const std::vector<int>& edges = plan.edges();
+    REQUIRE(edges.front() == 0);
+    REQUIRE(edges.back() == plan.slabs());
+    const int ranges = static_cast<int>(edges.size() - 1) / members;
+    int passed = 0, most = 0, largest = 0, all = 0;
+    std::vector<int> until{0};  // contacts of the first slabs
+    for (int slab = 0; slab < plan.slabs(); ++slab) {
+      until.push_back(all += contacts_of(slab));
+      largest = std::max(largest, contacts_of(slab));
+    }
+    for (int member = 0; member < members; ++member) {
+      const int now = until[edges[(member + 1) * ranges]];
+      most = std::max(most, now - std::exchange(passed, now));
+    }
+    CAPTURE(members, plan.slabs(), largest, all, most);
+    CHECK(passed == all);
+    CHECK(largest > 2 * all / plan.slabs());
+    // No other cut into two is much better, interfaces aside.
+    for (const int cut : until)
+      if (members == 2) CHECK(most <= 1.05 * std::max(cut, all - cut));
+    std::atomic<int> slabs = 0;
+    plan.for_slabs([&](int begin, int end) { slabs += end - begin; });
+    CHECK(slabs == plan.slabs());
+  }
 }
 
 TEST_CASE("no contacts, and contacts that nothing moves, have a plan") {
