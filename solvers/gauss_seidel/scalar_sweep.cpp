@@ -212,8 +212,13 @@ double to_principal(Record& k, double mu, TangentTurn& turn) {
 template <typename Task>
 void ScalarSweep::for_parts_in_phases(const Task& task) {
   const int slabs = plan_.slabs();
-  run_parts(team_, slabs, [&](int k) { task(plan_.parts()[k], k); });
-  run_parts(team_, slabs - 1, [&](int k) { task(plan_.parts()[slabs + k], slabs + k); });
+  plan_.for_slabs([&](int begin, int end) {
+    for (int k = begin; k < end; ++k) task(plan_.parts()[k], k);
+  });
+  plan_.for_slabs([&](int begin, int end) {
+    for (int k = begin; k < std::min(end, slabs - 1); ++k)
+      task(plan_.parts()[slabs + k], slabs + k);
+  });
 }
 
 void ScalarSweep::prepare(const FrictionProblem& problem) {
