@@ -7,6 +7,7 @@
 // each of two runs without a common body.
 
 #include <algorithm>
+#include <type_traits>
 
 #include "solvers/gauss_seidel/group_kernels.hpp"
 #include "solvers/gauss_seidel/lanes.hpp"
@@ -70,13 +71,13 @@ struct LaneSums {
 };
 
 /// Groups in single precision have the offsets of such bodies. Those in double stand twice as far.
-template <typename V, typename Group>
-constexpr int offset_scale = sizeof(typename V::Number) / sizeof(typename Group::Number);
+template <typename Number, typename Group>
+constexpr int offset_scale = std::is_same_v<Number, typename Group::Number> ? 1 : 2;
 
 /// L^T v of the wall that a group's contacts are on.
 template <typename Group, typename Number>
 BALLAST_INLINE auto& wall_velocity(const Group& k, BodyRow<Number>* bodies) {
-  constexpr int scale = sizeof(Number) / sizeof(typename Group::Number);
+  constexpr int scale = offset_scale<Number, Group>;
   return reinterpret_cast<BodyRow<Number>*>(at_offset(bodies, scale * k.wall_body))->w[0];
 }
 template <typename Group, typename Number>
@@ -88,7 +89,7 @@ BALLAST_INLINE auto wall_velocity(const Group& k, const BodyRow<Number>* bodies)
 template <typename V, typename Group>
 void push_loop(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses, int count,
                BodyRow<double>* bodies) {
-  constexpr int scale = offset_scale<V, Group>;
+  constexpr int scale = offset_scale<typename V::Number, Group>;
   for (int g = 0; g < count; ++g)
     for (int lane = 0; lane < group_lanes; lane += V::width) {
       const Group& k = groups[g];

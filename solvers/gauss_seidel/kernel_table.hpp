@@ -184,7 +184,7 @@ requires(Group::rows == 1) BALLAST_INLINE V
 template <typename V, typename Group>
 BALLAST_INLINE void contact_velocities(const Group& k, const GroupFrame& f, int lane,
                                        const BodyRow<typename V::Number>* bodies, V* moved) {
-  constexpr int scale = offset_scale<V, Group>;
+  constexpr int scale = offset_scale<typename V::Number, Group>;
   V a[6], b[6];
   gather_bodies<scale>(bodies, k.body[0] + lane, a);
   gather_bodies<scale>(bodies, k.body[1] + lane, b);
