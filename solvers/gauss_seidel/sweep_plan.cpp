@@ -250,7 +250,8 @@ void SweepPlan::share_slabs() {
   for (int slab = 0; slab < slabs_; ++slab) {
     const long its =
         contacts_of(parts_[slab]) + (slab + 1 < slabs_ ? contacts_of(parts_[slabs_ + slab]) : 0);
-    const long range = (2 * passed + its) * ranges / std::max(1L, 2 * total);
+    // slabs without contacts may come last
+    const long range = std::min(ranges - 1L, (2 * passed + its) * ranges / std::max(1L, 2 * total));
     while (static_cast<long>(edges_.size()) <= range) edges_.push_back(slab);
     passed += its;
   }

@@ -274,6 +274,22 @@ TEST_CASE("each member has neighbouring slabs with about as many contacts as the
   }
 }
 
+TEST_CASE("a last slab without contacts is some member's") {
+  FrictionProblem problem = make_known_solution({.bodies = 1200, .contacts = 1}).problem;
+  problem.dynamics.body_a = {3};
+  problem.dynamics.body_b = {4};
+  for (const int members : {1, 2}) {
+    WorkerTeam team;
+    team.resize(members);
+    SweepPlan plan;
+    plan.use_team(&team);
+    plan.prepare(problem);
+    REQUIRE(plan.slabs() == 2);
+    REQUIRE(plan.parts()[1].begin == plan.parts()[1].end);
+    CHECK(plan.edges().back() == 2);
+  }
+}
+
 TEST_CASE("no contacts, and contacts that nothing moves, have a plan") {
   FrictionProblem problem = make_known_solution({.bodies = 3, .contacts = 2}).problem;
   problem.dynamics.body_a = {-1, -1};
