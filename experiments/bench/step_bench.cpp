@@ -188,8 +188,8 @@ std::vector<Kernel> step_kernels(const DepositedBox& box, int steps) {
     const auto work = std::make_shared<SweepWork>(*step, in_single);
     const std::string how = in_single ? " in float lanes" : "";
     add("sweep", "sweep" + how, [work] { work->sweep->sweep(); });
-    // The work of an iteration of nncg between two looks at the error.
-    add("sweep", "sweep along a search" + how, [work] { work->sweep->sweep_along({0.1, 1.0}); });
+    // The work of an iteration of nesterov_pgs between two looks at the error.
+    add("sweep", "sweep along a search" + how, [work] { work->sweep->sweep_along({0.1}); });
     add("sweep", "error" + how, [work] { work->sweep->error(); });
   }
   return kernels;

@@ -80,7 +80,7 @@ class Depositor {
     packing_ = {packing_key(scene_), name_of(stage_), {}, {}, {}};
     packing_.deposit.lid = 2.0 * rain_.height;  // out of the way
     box_system(scene_, rain_, stage_, packing_.deposit.lid, &packing_.state);
-    if (tile_) place_copies(scene_, tile_->state, packing_.state);
+    if (tile_) place_copies(rain_, tile_->state, packing_.state);
   }
 
   size_t lid() const { return rain_.grains.size() + wall_lid; }

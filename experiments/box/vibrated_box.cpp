@@ -79,6 +79,31 @@ std::vector<Vec3> scatter(const std::vector<double>& radii, double length, doubl
   return centres;
 }
 
+void name_grains(Rain& rain) {
+  for (size_t k = 0; k < rain.grains.size(); ++k)
+    rain.grains[k].name = "grain " + std::to_string(k);
+}
+
+Rain tiled_rain(const Scene& scene, const Rain& tile) {
+  const DepositSpec& deposit = scene.deposit;
+  const double length = scene.box.length / deposit.tiles_x,
+               width = scene.box.width / deposit.tiles_y;
+  Rain rain{{}, tile.height};
+  for (int ix = 0; ix < deposit.tiles_x; ++ix)
+    for (int iy = 0; iy < deposit.tiles_y; ++iy)
+      for (size_t b = 0; b < tile.grains.size(); ++b)
+        rain.copies.push_back({b, Vec3(ix * length, iy * width, 0.0)});
+  std::ranges::stable_sort(rain.copies, {}, [&](const Rain::Copy& copy) {
+    return tile.grains[copy.of].pose.position.x() + copy.corner.x();
+  });
+  for (const auto& [of, corner] : rain.copies) {
+    rain.grains.push_back(tile.grains[of]);
+    rain.grains.back().pose.position += corner;
+  }
+  name_grains(rain);
+  return rain;
+}
+
 void drive_by(WallSpec& spec, double mass, const HarmonicLoad& load) {
   spec.motion = WallMotion::driven;
   spec.mass = mass;
@@ -111,13 +136,14 @@ Rain make_rain(const Scene& scene) {
       scatter(radii, scene.box.length, scene.box.width, rain.height, random);
   for (size_t k = 0; k < shapes.size(); ++k) {
     BodySpec body;
-    body.name = "grain " + std::to_string(k);
     body.shape = std::make_shared<const Polyhedron>(shapes[k].shape);
     body.mass = spec.density * shapes[k].volume;
     body.inertia = spec.density * shapes[k].inertia;
     body.pose = {centres[k], random_rotation(random)};
     rain.grains.push_back(std::move(body));
   }
+  std::ranges::stable_sort(rain.grains, {}, [](const BodySpec& b) { return b.pose.position.x(); });
+  name_grains(rain);
   return rain;
 }
 
@@ -130,27 +156,6 @@ Scene tile_of(const Scene& scene) {
   return tile;
 }
 
-std::vector<Vec3> tile_corners(const Scene& scene) {
-  const DepositSpec& deposit = scene.deposit;
-  const double length = scene.box.length / deposit.tiles_x,
-               width = scene.box.width / deposit.tiles_y;
-  std::vector<Vec3> corners;
-  for (int iy = 0; iy < deposit.tiles_y; ++iy)
-    for (int ix = 0; ix < deposit.tiles_x; ++ix) corners.emplace_back(ix * length, iy * width, 0.0);
-  return corners;
-}
-
-Rain tiled_rain(const Scene& scene, const Rain& tile) {
-  Rain rain{{}, tile.height};
-  for (const Vec3& corner : tile_corners(scene))
-    for (BodySpec grain : tile.grains) {
-      grain.name = "grain " + std::to_string(rain.grains.size());
-      grain.pose.position += corner;
-      rain.grains.push_back(std::move(grain));
-    }
-  return rain;
-}
-
 Scene tiled_scene(const Scene& tile, int nx, int ny) {
   Scene scene = tile;
   scene.box.length *= nx;
@@ -161,16 +166,14 @@ Scene tiled_scene(const Scene& tile, int nx, int ny) {
   return scene;
 }
 
-void place_copies(const Scene& scene, const MotionState& tile, MotionState& state) {
-  const size_t grains = tile.pose.size() - box_wall_count;
-  size_t copy = 0;
-  for (const Vec3& corner : tile_corners(scene))
-    for (size_t b = 0; b < grains; ++b, ++copy) {
-      state.pose[copy] = tile.pose[b];
-      state.pose[copy].position += corner;
-      state.velocity[copy] = tile.velocity[b];
-      state.spin[copy] = tile.spin[b];
-    }
+void place_copies(const Rain& tiled, const MotionState& tile, MotionState& state) {
+  for (size_t b = 0; b < tiled.copies.size(); ++b) {
+    const auto& [of, corner] = tiled.copies[b];
+    state.pose[b] = tile.pose[of];
+    state.pose[b].position += corner;
+    state.velocity[b] = tile.velocity[of];
+    state.spin[b] = tile.spin[of];
+  }
 }
 
 Vec3 deposit_gravity(const Scene& scene) {
@@ -235,7 +238,7 @@ std::string packing_key(const Scene& scene) {
   std::ostringstream text;
   text.precision(17);
   const GrainsSpec& g = *scene.grains;
-  text << "packing 7;" << g.count << ' ' << g.seed << ' ' << g.density << ' '
+  text << "packing 8;" << g.count << ' ' << g.seed << ' ' << g.density << ' '
        << static_cast<int>(g.size_convention);
   for (const SizeClass& size : g.distribution) text << ' ' << size.size << ' ' << size.fraction;
   text << ';' << g.shape.min_vertices << ' ' << g.shape.max_vertices << ' '
@@ -253,7 +256,7 @@ std::string packing_key(const Scene& scene) {
   const CorrectionSpec& c = scene.correction;
   text << ';' << c.enabled << ' ' << c.slop << ' ' << c.fraction << ' ' << c.sweeps << ' '
        << scene.detection.max_points;
-  if (d.tiles() > 1) text << "; tiles 2 " << d.tiles_x << ' ' << d.tiles_y;
+  if (d.tiles() > 1) text << "; tiles 3 " << d.tiles_x << ' ' << d.tiles_y;
   return content_key(text.str());
 }
 

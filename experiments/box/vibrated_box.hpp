@@ -25,10 +25,18 @@ enum BoxWall {
 };
 
 /// The grains of a scene, generated or read from its meshes, at rest in a loose rain without
-/// overlap above the floor; of a tiled box copies of a tile's.
+/// overlap above the floor; of a tiled box copies of a tile's, which share their shapes. They are
+/// numbered along x: neighbours are near in memory, and a sweep's slabs follow the numbers
+/// (SweepPlan).
 struct Rain {
   std::vector<BodySpec> grains;
   double height = 0.0;  ///< of the rain [m]
+  /// Of a tiled box: which grain of the tile each is a copy of, and where its tile's corner is [m].
+  struct Copy {
+    size_t of;
+    Vec3 corner;
+  };
+  std::vector<Copy> copies = {};
 };
 Rain make_rain(const Scene& scene);
 
@@ -39,14 +47,10 @@ Rain make_rain(const Scene& scene);
 Scene tile_of(const Scene& scene);
 /// nx by ny tiles of this box in one: grains.count, box.length and box.width grow with them.
 Scene tiled_scene(const Scene& tile, int nx, int ny);
-/// Where each tile's corner is, along x first [m].
-std::vector<Vec3> tile_corners(const Scene& scene);
-/// Copies of the grains of a tile in the order of the corners; they share the shapes.
-Rain tiled_rain(const Scene& scene, const Rain& tile);
 /// Puts copies of the tile's grains into a state of the tiled box, whose walls stay as they are.
 /// Copies do not overlap, because each lay between its walls. Where those stood, a seam of a
 /// grain's width is loose.
-void place_copies(const Scene& scene, const MotionState& tile, MotionState& state);
+void place_copies(const Rain& tiled, const MotionState& tile, MotionState& state);
 
 /// The system of one stage. `lid`: height of the lid's plane at the start of the stage [m].
 /// `start`, where it is given: grains as they are in the rain, and the walls, all at rest.

@@ -24,9 +24,10 @@ double reach_of(const RigidBody& body, double radius, const MotionState& state, 
   }
   if (body.shape.fixed) return 0.0;
   // No point of the body is faster than |v| + |w| R; gravity adds g h, and forces like it as much.
-  // The load of a driven wall is left out: it may open and close a gap of f h^2 / m unseen.
   const double pushed =
-      body.is_wall() ? 0.0 : (body.force.constant.norm() + body.force.amplitude.norm()) / body.mass;
+      (body.is_wall() ? body.wall.load.largest()
+                      : body.force.constant.norm() + body.force.amplitude.norm()) /
+      body.mass;
   return h *
          (state.velocity[b].norm() + state.spin[b].norm() * radius + (g + std::max(g, pushed)) * h);
 }

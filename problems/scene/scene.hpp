@@ -22,6 +22,7 @@ namespace ballast {
 struct HarmonicLoad {
   double f_min = 0.0, f_max = 0.0;  ///< [N]
   double frequency = 0.0;           ///< nu [Hz]
+  double largest() const { return std::max(std::abs(f_min), std::abs(f_max)); }
   double at(double t) const {
     return 0.5 * (f_max + f_min) -
            0.5 * (f_max - f_min) * std::sin(2.0 * std::numbers::pi * frequency * t);

@@ -60,7 +60,7 @@ class Momentum final : public SearchRule {
       return {};
     }
     const double beta = std::min(age_ / (age_ + 2.0), mean_factor(square));
-    return {.beta = beta, .gain = 0.0, .ahead = beta};
+    return {.beta = beta};
   }
 
   /// Where a quarter more sweeps gained less than a tenth, momentum circles without end: plain
@@ -125,11 +125,11 @@ class FletcherReeves final : public SearchRule {
     if (begins_) last_ = 0.0;
     const bool is_first = begins_ || !accelerates_;
     begins_ = false;
-    if (is_first) return {};
+    if (is_first) return {.beta = 0.0, .is_conjugate = true};
     double beta = last_ > 0.0 ? square / last_ : 0.0;
     if (beta > 1.0) beta = 0.0;
     last_ = square;
-    return {.beta = beta, .gain = 1.0};
+    return {.beta = beta, .is_conjugate = true};
   }
 
   bool see(double error) override {
@@ -167,10 +167,6 @@ class SweptChange {
   int next_ = 0;
 };
 
-/// Solves with at least so many iterations may sweep in single precision: casting the records takes
-/// as long as a few sweeps in double.
-constexpr int single_pays_from = 16;
-
 /// Sweeps, plain or along a search. Besides the start only swept iterates, which lie in the cones,
 /// are ever judged or returned.
 class GaussSeidel final : public Solver {
@@ -191,7 +187,7 @@ class GaussSeidel final : public Solver {
     if (rule_) rule_->reset();
     // No single precision where the budget asks for another measure, which may stop a solve between
     // two looks of ours.
-    sweep_->allow_single(budget.max_iterations >= single_pays_from && !budget.fclib);
+    sweep_->allow_single(!budget.fclib);
     load(problem, r);
     Impulses best(returns_best_ ? problem.row_count() : 0);  // of all looks at storable iterates
     bool is_best = false, is_stored = false;
@@ -220,8 +216,11 @@ class GaussSeidel final : public Solver {
     }
     if (!is_stored) sweep_->store(problem, r);  // drops impulses that move nothing
     Solved solved = iteration.finish(std::move(is_best ? best : r));
-    if (std::isfinite(least) && !is_best && solved.reason != StopReason::reached_tolerance)
-      go_back(problem, best, solved);
+    if (least < solved.own_residual && solved.reason != StopReason::reached_tolerance) {
+      solved.impulses = std::move(best);
+      solved.own_residual = solved.end_error = least;
+      if (!solved.history.empty()) solved.history.back().error = least;
+    }
     return solved;
   }
 
@@ -241,29 +240,15 @@ class GaussSeidel final : public Solver {
     return 0.0;
   }
 
-  /// The error [m/s] of an iterate that may be returned. After sweeps in single precision the
-  /// iterate is swept once more in double, so that it obeys each contact's law to the rounding of
-  /// double. Otherwise an error small enough to stop is evaluated again from the impulses alone, as
-  /// the judge will: thousands of updates have left their rounding in the velocities.
+  /// The error [m/s] of an iterate that may be returned. In double an error small enough to stop is
+  /// evaluated again from the impulses alone, as the judge will: thousands of updates have left
+  /// their rounding in the velocities.
   double last_error(const FrictionProblem& problem, const Iteration& iteration, Impulses& r) {
-    const bool is_fresh = sweep_->finish_in_double();
     const double error = sweep_->error();
-    if (is_fresh || !iteration.reached(error)) return error;
+    if (sweep_->is_single() || !iteration.reached(error)) return error;
     sweep_->store(problem, r);
     load(problem, r);
     return sweep_->error();
-  }
-
-  /// Goes back to the best iterate and sweeps it in double: so it obeys each contact's law.
-  void go_back(const FrictionProblem& problem, const Impulses& best, Solved& solved) {
-    sweep_->allow_single(false);
-    sweep_->load(problem, best);
-    sweep_->sweep();
-    const double error = sweep_->error();
-    if (error >= solved.own_residual) return;
-    sweep_->store(problem, solved.impulses);
-    solved.own_residual = solved.end_error = error;
-    if (!solved.history.empty()) solved.history.back().error = error;
   }
 
   std::unique_ptr<SearchRule> rule_;

@@ -27,7 +27,7 @@ class ContactSweep {
 
   // See WideSweep. The other sweeps are always in double.
   virtual void allow_single(bool) {}
-  virtual bool finish_in_double() { return false; }
+  virtual bool is_single() const { return false; }
   /// The error, perhaps in single precision. Then is_storable() is false until the next error().
   virtual double rough_error() { return error(); }
   virtual bool is_storable() const { return true; }

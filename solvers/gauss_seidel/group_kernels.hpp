@@ -76,7 +76,8 @@ struct alignas(64) GroupVelocities {
   float u[Rows][group_lanes];
 };
 
-/// A search that combines sweeps: the impulse changes of the last sweep, and the direction.
+/// What a search keeps of its sweeps (SearchStep). Momentum: x_k - x_k-1 alone, in `change`.
+/// Conjugate: the last sweep's d in `change`, p in `direction`.
 template <typename Number, int Rows>
 struct alignas(64) GroupSearch {
   Number change[Rows][group_lanes], direction[Rows][group_lanes];
@@ -89,6 +90,7 @@ struct alignas(64) GroupFrame {
   double cosine[group_lanes], sine[group_lanes];              ///< of the turn to principal tangents
   double mu[group_lanes];
   double lambda_max[group_lanes];  ///< of W_cc [1/kg]; 0: no contact, or an immovable one
+  double bias[3][group_lanes];     ///< of u', without the bodies' motion
   int contact[group_lanes];        ///< its number in the problem; -1: none
 };
 
@@ -97,20 +99,32 @@ struct alignas(8 * sizeof(Number)) BodyRow {
   Number w[8];
 };
 
-/// The step of a search that combines sweeps. x is the iterate after the last sweep, `before` the
-/// one that it started from, and d = x - before. The iterate moves by m = beta p + ahead d. Then
-/// p := m + gain d, x += m, before := x.
+/// The step of a search that combines sweeps. Sweep k leaves the iterate x_k, having changed its
+/// start by d_k. The next one starts at x_k + m_k:
+///   momentum:   m_k = beta (x_k - x_k-1)
+///   conjugate:  m_k = beta p_k-1,  p_k = m_k + d_k
+/// A search keeps to one of the two.
 struct SearchStep {
-  double beta = 0.0, gain = 0.0, ahead = 0.0;
+  double beta = 0.0;
+  bool is_conjugate = false;
 
-  /// Moves the numbers `x`, which the last sweep changed by `change`. `direction`: their p.
+  /// Moves the numbers `x`, which the last sweep changed by `change`. `direction`: their last m, or
+  /// their p.
   template <typename Numbers>
   [[gnu::always_inline]] void move(const Numbers& change, Numbers& direction, Numbers& x) const {
-    const Numbers along = beta * direction + ahead * change;
-    direction = along + gain * change;
-    x = x + along;
+    if (is_conjugate) {
+      const Numbers along = beta * direction;
+      direction = along + change;
+      x = x + along;
+    } else {
+      direction = beta * (direction + change);
+      x = x + direction;
+    }
   }
 };
+
+/// How a sweep starts: where the last one ended, or moved by a SearchStep.
+enum class SearchKind { none, momentum, conjugate };
 
 /// Groups that follow each other, their impulses and, for a search, its numbers.
 template <typename Group>
@@ -139,18 +153,28 @@ struct GroupLoops {
   /// first takes the step (the caller has moved the bodies by it), and `squares` receives each
   /// run's sum of |change|^2 over its contacts.
   void (*sweep)(const Run (&runs)[2], const SearchStep* step, Body* bodies, double (&squares)[2]);
-  /// Applies all impulses once to their bodies.
-  void (*push)(const Group* groups, const Impulses* impulses, int count, Body* bodies);
-  /// The sum over contacts of the judge's scaled natural map squared [m^2/s^2]. `out` may be null.
+  /// Applies all impulses once to their bodies, which are in double.
+  void (*push)(const Group* groups, const Impulses* impulses, int count, BodyRow<double>* bodies);
+  /// The sum over contacts of the judge's scaled natural map squared [m^2/s^2], in double. `out`
+  /// may be null.
   double (*error)(const Group* groups, const Impulses* impulses, const GroupFrame* frames,
-                  int count, const Body* bodies, GroupVelocities<Group::rows>* out);
+                  int count, const BodyRow<double>* bodies, GroupVelocities<Group::rows>* out);
 };
 
-/// The loops over groups in double, with one that exists in double only.
+/// Of groups in double.
 template <typename Group>
 struct ExactLoops : GroupLoops<Group> {
-  /// Turns rows and bias as given, and mu in the frames, into the group's coordinates.
+  /// Turns the rows as given, bias and mu in the frames, into the group's coordinates.
   void (*make_principal)(Group* groups, GroupFrame* frames, int count);
+};
+
+/// Of groups in single precision.
+template <typename Group>
+struct SingleLoops : GroupLoops<Group> {
+  /// The same sum in single precision, with the velocities that a sweep sees.
+  double (*rough_error)(const Group* groups, const GroupImpulses<float, Group::rows>* impulses,
+                        const GroupFrame* frames, int count, const BodyRow<float>* bodies,
+                        GroupVelocities<Group::rows>* out);
 };
 
 /// Moves `count` consecutive bodies by the step of the search.
@@ -167,7 +191,7 @@ struct KernelsOf : Kinds<Loops, Number> {
 struct GroupKernels {
   const char* instruction_set;
   KernelsOf<ExactLoops, double> exact;
-  KernelsOf<GroupLoops, float> single;
+  KernelsOf<SingleLoops, float> single;
 };
 
 /// The kernels of the best instruction set that this processor has.

@@ -7,25 +7,27 @@
 // each of two runs without a common body.
 
 #include <algorithm>
+#include <type_traits>
 
 #include "solvers/gauss_seidel/group_kernels.hpp"
 #include "solvers/gauss_seidel/lanes.hpp"
 
 namespace ballast {
 
-template <typename V>
-BALLAST_INLINE V dot(const typename V::Number (*row)[group_lanes], int lane, const V* w) {
+template <typename V, typename Number>
+BALLAST_INLINE V dot(const Number (*row)[group_lanes], int lane, const V* w) {
   return (V::load(row[0] + lane) * w[0] + V::load(row[1] + lane) * w[1]) +
          V::load(row[2] + lane) * w[2];
 }
 
-/// Row `i` of the contacts' velocities from those of their bodies, bias included.
-template <typename V, typename Group>
-BALLAST_INLINE V velocity(const Group& k, int i, int lane, const V* a, const V* b) {
+/// Row `i` of the contacts' velocities from those of their bodies, and `bias`.
+template <typename V, typename Group, typename Number>
+BALLAST_INLINE V velocity(const Group& k, const Number (*bias)[group_lanes], int i, int lane,
+                          const V* a, const V* b) {
   const V apart[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   return dot(k.line[i], lane, apart) +
          (dot(k.turn[0][i], lane, a + 3) + dot(k.turn[1][i], lane, b + 3)) +
-         V::load(k.bias[i] + lane);
+         V::load(bias[i] + lane);
 }
 
 /// The bodies feel the impulses e.
@@ -68,47 +70,61 @@ struct LaneSums {
   }
 };
 
+/// Groups in single precision have the offsets of such bodies. Those in double stand twice as far.
+template <typename Number, typename Group>
+constexpr int offset_scale = std::is_same_v<Number, typename Group::Number> ? 1 : 2;
+
 /// L^T v of the wall that a group's contacts are on.
-template <typename Group, typename Row>
-BALLAST_INLINE auto& wall_velocity(const Group& k, Row* bodies) {
-  return reinterpret_cast<Row*>(at_offset(bodies, k.wall_body))->w[0];
+template <typename Group, typename Number>
+BALLAST_INLINE auto& wall_velocity(const Group& k, BodyRow<Number>* bodies) {
+  constexpr int scale = offset_scale<Number, Group>;
+  return reinterpret_cast<BodyRow<Number>*>(at_offset(bodies, scale * k.wall_body))->w[0];
+}
+template <typename Group, typename Number>
+BALLAST_INLINE auto wall_velocity(const Group& k, const BodyRow<Number>* bodies) {
+  return wall_velocity(k, const_cast<BodyRow<Number>*>(bodies));
 }
 
 /// GroupLoops::push
 template <typename V, typename Group>
 void push_loop(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses, int count,
-               BodyRow<typename V::Number>* bodies) {
+               BodyRow<double>* bodies) {
+  constexpr int scale = offset_scale<typename V::Number, Group>;
   for (int g = 0; g < count; ++g)
     for (int lane = 0; lane < group_lanes; lane += V::width) {
       const Group& k = groups[g];
       V a[6], b[6], r[Group::rows];
       for (int i = 0; i < Group::rows; ++i) r[i] = V::load(impulses[g].y[i] + lane);
-      gather_bodies(bodies, k.body[0] + lane, a);
-      gather_bodies(bodies, k.body[1] + lane, b);
+      gather_bodies<scale>(bodies, k.body[0] + lane, a);
+      gather_bodies<scale>(bodies, k.body[1] + lane, b);
       push(k, lane, r, a, b);
-      scatter_bodies(bodies, k.body[0] + lane, a);
-      scatter_bodies(bodies, k.body[1] + lane, b);
+      scatter_bodies<scale>(bodies, k.body[0] + lane, a);
+      scatter_bodies<scale>(bodies, k.body[1] + lane, b);
       if constexpr (requires { k.wall; })
         for (int i = lane; i < lane + V::width; ++i)
-          wall_velocity(k, bodies) += k.wall[i] * impulses[g].y[0][i];
+          wall_velocity(k, bodies) +=
+              static_cast<double>(k.wall[i]) * static_cast<double>(impulses[g].y[0][i]);
     }
 }
 
-/// A plain loop over the bodies' numbers: each compiler flag makes its own registers of it. V tells
-/// the instruction sets' functions apart.
+/// Plain loops over the bodies' numbers: each compiler flag makes its own registers of them. V
+/// tells the instruction sets' functions apart.
 template <typename V, typename Number = typename V::Number>
 void move_bodies(int count, SearchStep step, BodyRow<Number>* __restrict bodies,
                  BodyRow<Number>* __restrict befores, BodyRow<Number>* __restrict directions) {
   Number *w = bodies->w, *before = befores->w, *direction = directions->w;
-  const Number beta = static_cast<Number>(step.beta), gain = static_cast<Number>(step.gain),
-               ahead = static_cast<Number>(step.ahead);
-  for (int i = 0; i < 8 * count; ++i) {
-    const Number change = w[i] - before[i], along = beta * direction[i] + ahead * change,
-                 moved = w[i] + along;
-    direction[i] = along + gain * change;
-    w[i] = moved;
-    before[i] = moved;
-  }
+  const Number beta = static_cast<Number>(step.beta);
+  if (step.is_conjugate)
+    for (int i = 0; i < 8 * count; ++i) {
+      const Number along = beta * direction[i];
+      direction[i] = along + (w[i] - before[i]);
+      before[i] = w[i] = w[i] + along;
+    }
+  else
+    for (int i = 0; i < 8 * count; ++i) {
+      direction[i] = beta * (direction[i] + (w[i] - before[i]));
+      before[i] = w[i] = w[i] + direction[i];
+    }
 }
 
 /// In: the impulses (y, t1, t2) that would stop the contacts. Out: the solutions.
@@ -163,18 +179,21 @@ template <typename V>
 ///   one_contact.hpp).
 ///
 /// The guess is the root for s2 = 1 in closed form, and by how much that missed the last root: in
-/// nine of ten visits it is within 1e-3. Two Newton steps follow, without a branch and without a
-/// square root: with P = mu N near R, R - P ~ 2 P (R^2 - P^2) / (3 P^2 + R^2). What the second one
-/// moves tells how near the root is; its own error is the square of that. A guess beyond a pole may
-/// have left for infinity by then, where nothing is less than its own part.
+/// nine of ten visits it is within 1e-3. Newton steps follow, without a square root: with P = mu N
+/// near R, R - P ~ 2 P (R^2 - P^2) / (3 P^2 + R^2). What a step moves tells how near the root is;
+/// its own error is the square of that. So most vectors end with the first one; a lane takes a
+/// second where the first moved it by more than `near`. In single precision a first step may miss
+/// the root by 1e-4: the next visit starts there. A guess beyond a pole may have left for infinity
+/// by then, where nothing is less than its own part.
 template <typename V, int K>
 BALLAST_INLINE void slide(LawLanes<V>* k) {
   using Mask = typename V::Mask;
   constexpr bool is_double = sizeof(typename V::Number) == 8;
-  const V one = V::all(1.0), zero = V::all(0.0), enough = V::all(is_double ? 3e-7 : 5e-4);
+  const V one = V::all(1.0), zero = V::all(0.0), near = V::all(is_double ? 3e-7 : 1e-2),
+          enough = V::all(is_double ? 3e-7 : 5e-4);
   V d2[K], spread[K], square1[K], square2[K], coupling1[K], coupling2[K], coupling[K], closed[K],
       x[K];
-  Mask good[K];
+  Mask good[K] = {};
   for (int v = 0; v < K; ++v) {
     d2[v] = k[v].s2 * k[v].t2;
     spread[v] = k[v].s2 - one;
@@ -189,7 +208,8 @@ BALLAST_INLINE void slide(LawLanes<V>* k) {
         square_root(square) * k[v].inverse_mu + coupling[v] - spread[v] * square2[v] / square;
     x[v] = closed[v] + k[v].miss;
   }
-  for (int step = 0; step < 2; ++step)
+  for (const V& limit : {near, enough}) {
+    Mask left{};
     for (int v = 0; v < K; ++v) {
       const V x2 = x[v] + spread[v];
       const V n = (x[v] - coupling1[v]) * x2 - coupling2[v] * x[v];
@@ -199,11 +219,14 @@ BALLAST_INLINE void slide(LawLanes<V>* k) {
       const V pressed = k[v].mu * n, p_square = pressed * pressed;
       const V move = (r_square - p_square) * (r_square * (n + n)) /
                      ((p_square + p_square + p_square + r_square) * slope);
-      x[v] = x[v] + move;
-      if (step == 1)
-        good[v] = static_cast<Mask>(less(move, enough * x[v]) & less(zero - move, enough * x[v]) &
-                                    less(one, x[v]) & less(zero, pressed));
+      x[v] = select(good[v], x[v], x[v] + move);
+      good[v] =
+          static_cast<Mask>(good[v] | (less(move, limit * x[v]) & less(zero - move, limit * x[v]) &
+                                       less(one, x[v]) & less(zero, pressed)));
+      left = static_cast<Mask>(left | (k[v].slips & ~good[v]));
     }
+    if (!any(left)) break;
+  }
   for (int v = 0; v < K; ++v) {
     const Mask rest = static_cast<Mask>(k[v].slips & ~good[v]);
     if (any(rest)) [[unlikely]] {
@@ -219,17 +242,39 @@ BALLAST_INLINE void slide(LawLanes<V>* k) {
   }
 }
 
-/// Impulses as the sweep finds them: moved along the search, if there is one.
-template <bool Search, typename V, typename Run>
+/// Impulses as the sweep starts with them.
+template <SearchKind how, typename V, typename Run>
 BALLAST_INLINE void load_impulses(const Run& run, int g, SearchStep step, int lane, V* r) {
   constexpr int rows = std::extent_v<decltype(run.impulses->y)>;
   for (int i = 0; i < rows; ++i) {
     r[i] = V::load(run.impulses[g].y[i] + lane);
-    if constexpr (Search) {
+    if constexpr (how == SearchKind::momentum)
+      r[i] = r[i] + step.beta * V::load(run.search[g].change[i] + lane);
+    if constexpr (how == SearchKind::conjugate) {
       auto& search = run.search[g];
       V direction = V::load(search.direction[i] + lane);
       step.move(V::load(search.change[i] + lane), direction, r[i]);
       direction.store(search.direction[i] + lane);
+    }
+  }
+}
+
+/// Impulses as the sweep leaves them, and what the search keeps of it. Out: e, what it changed.
+/// With momentum x_k - x_k-1 is the sum of both moves, as for the bodies: the difference of the
+/// impulses would carry the rounding of each move on to all later ones.
+template <SearchKind how, typename V, typename Run>
+BALLAST_INLINE void store_impulses(const Run& run, int g, SearchStep step, int lane, const V* r,
+                                   const V* after, V* e) {
+  constexpr int rows = std::extent_v<decltype(run.impulses->y)>;
+  for (int i = 0; i < rows; ++i) {
+    e[i] = after[i] - r[i];
+    after[i].store(run.impulses[g].y[i] + lane);
+    if constexpr (how != SearchKind::none) {
+      auto* change = run.search[g].change[i] + lane;
+      if constexpr (how == SearchKind::momentum)
+        (step.beta * V::load(change) + e[i]).store(change);
+      else
+        e[i].store(change);
     }
   }
 }
@@ -240,11 +285,11 @@ struct FrictionVector {
   using Run = GroupRun<FrictionGroup<typename V::Number>>;
   V a[6], b[6], r[3];
 
-  template <bool Search>
+  template <SearchKind how>
   BALLAST_INLINE LawLanes<V> load(const Run& run, int g, SearchStep step, int lane,
                                   const void* bodies) {
     const auto& k = run.groups[g];
-    load_impulses<Search>(run, g, step, lane, r);
+    load_impulses<how>(run, g, step, lane, r);
     gather_bodies(bodies, k.body[0] + lane, a);
     gather_bodies(bodies, k.body[1] + lane, b);
     LawLanes<V> law;
@@ -254,25 +299,20 @@ struct FrictionVector {
     law.mu = V::load(k.mu + lane);
     law.inverse_mu = V::load(k.inverse_mu + lane);
     law.miss = V::load(run.impulses[g].miss + lane);
-    law.y = r[0] - velocity(k, 0, lane, a, b);
-    law.t1 = r[1] - velocity(k, 1, lane, a, b);
-    law.t2 = r[2] - velocity(k, 2, lane, a, b) * V::load(k.inverse_s2 + lane);
+    law.y = r[0] - velocity(k, k.bias, 0, lane, a, b);
+    law.t1 = r[1] - velocity(k, k.bias, 1, lane, a, b);
+    law.t2 = r[2] - velocity(k, k.bias, 2, lane, a, b) * V::load(k.inverse_s2 + lane);
     return law;
   }
 
-  template <bool Search>
-  BALLAST_INLINE void store(const LawLanes<V>& law, const Run& run, int g, LaneSums<V>& sums,
-                            int lane, void* bodies) {
+  template <SearchKind how>
+  BALLAST_INLINE void store(const LawLanes<V>& law, const Run& run, int g, SearchStep step,
+                            LaneSums<V>& sums, int lane, void* bodies) {
     const V after[3] = {law.y, law.t1, law.t2};
-    auto& impulses = run.impulses[g];
-    law.miss.store(impulses.miss + lane);
+    law.miss.store(run.impulses[g].miss + lane);
     V e[3];
-    for (int i = 0; i < 3; ++i) {
-      after[i].store(impulses.y[i] + lane);
-      e[i] = after[i] - r[i];
-      if constexpr (Search) e[i].store(run.search[g].change[i] + lane);
-    }
-    if constexpr (Search) sums.add(lane, e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+    store_impulses<how>(run, g, step, lane, r, after, e);
+    if constexpr (how != SearchKind::none) sums.add(lane, e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
     // Open before and after: nothing moves.
     const V zero = V::all(0.0);
     if (!any(static_cast<typename V::Mask>(differs(e[0], zero) | differs(e[1], zero) |
@@ -293,7 +333,7 @@ BALLAST_INLINE void prefetch(const Element& element) {
 }
 
 /// The i-th group of each of the first `Runs` runs, K vectors of each in step.
-template <typename V, int K, int Runs, bool Search, bool Far, typename Run>
+template <typename V, int K, int Runs, SearchKind how, bool Far, typename Run>
 BALLAST_INLINE void sweep_groups(const Run* runs, int i, SearchStep step, LaneSums<V>* sums,
                                  void* bodies) {
   int g[Runs];
@@ -303,7 +343,8 @@ BALLAST_INLINE void sweep_groups(const Run* runs, int i, SearchStep step, LaneSu
       const int next = runs[run].group(std::min(i + 1, runs[run].count - 1));
       prefetch(runs[run].groups[next]);
       prefetch(runs[run].impulses[next]);
-      if constexpr (Search) prefetch(runs[run].search[next]);
+      if constexpr (how == SearchKind::momentum) prefetch(runs[run].search[next].change);
+      if constexpr (how == SearchKind::conjugate) prefetch(runs[run].search[next]);
     }
   }
 #pragma GCC unroll 4
@@ -312,28 +353,28 @@ BALLAST_INLINE void sweep_groups(const Run* runs, int i, SearchStep step, LaneSu
     LawLanes<V> law[Runs * K];
     typename V::Mask slips{};
     for (int v = 0; v < Runs * K; ++v) {
-      law[v] = vectors[v].template load<Search>(runs[v / K], g[v / K], step,
-                                                lane + v % K * V::width, bodies);
+      law[v] = vectors[v].template load<how>(runs[v / K], g[v / K], step, lane + v % K * V::width,
+                                             bodies);
       open_or_stick(law[v]);
       slips = static_cast<typename V::Mask>(slips | law[v].slips);
     }
     if (any(slips)) slide<V, Runs * K>(law);
     for (int v = 0; v < Runs * K; ++v)
-      vectors[v].template store<Search>(law[v], runs[v / K], g[v / K], sums[v / K],
-                                        lane + v % K * V::width, bodies);
+      vectors[v].template store<how>(law[v], runs[v / K], g[v / K], step, sums[v / K],
+                                     lane + v % K * V::width, bodies);
   }
 }
 
-template <typename V, int K, bool Search, bool Far, typename Run>
+template <typename V, int K, SearchKind how, bool Far, typename Run>
 BALLAST_INLINE void sweep_friction(const Run* runs, SearchStep step, void* bodies,
                                    double* squares) {
   LaneSums<V> sums[2];
   const int both = K * V::width == group_lanes ? std::min(runs[0].count, runs[1].count) : 0;
-  for (int i = 0; i < both; ++i) sweep_groups<V, K, 2, Search, Far>(runs, i, step, sums, bodies);
+  for (int i = 0; i < both; ++i) sweep_groups<V, K, 2, how, Far>(runs, i, step, sums, bodies);
   for (int run = 0; run < 2; ++run) {
     for (int i = both; i < runs[run].count; ++i)
-      sweep_groups<V, K, 1, Search, Far>(runs + run, i, step, sums + run, bodies);
-    if constexpr (Search) squares[run] = sums[run].total();
+      sweep_groups<V, K, 1, how, Far>(runs + run, i, step, sums + run, bodies);
+    if constexpr (how != SearchKind::none) squares[run] = sums[run].total();
   }
 }
 
@@ -354,7 +395,7 @@ BALLAST_INLINE V solve_on_wall(const Number* wall, V y, V r, Number& w) {
 
 /// Groups of one row. Of contacts on a wall the grains' side is in lanes; what the wall sees comes
 /// in the order of the lanes, and so does the sum.
-template <typename V, bool Search, typename Group>
+template <typename V, SearchKind how, typename Group>
 BALLAST_INLINE double sweep_run(const GroupRun<Group>& run, SearchStep step,
                                 BodyRow<typename V::Number>* bodies) {
   constexpr bool on_wall = requires(Group k) { k.wall; };
@@ -365,21 +406,22 @@ BALLAST_INLINE double sweep_run(const GroupRun<Group>& run, SearchStep step,
     const auto& k = run.groups[g];
     for (int lane = 0; lane < group_lanes; lane += V::width) {
       V a[6], b[6], r;
-      load_impulses<Search>(run, g, step, lane, &r);
+      load_impulses<how>(run, g, step, lane, &r);
       gather_bodies(bodies, k.body[0] + lane, a);
       gather_bodies(bodies, k.body[1] + lane, b);
-      V y = r - velocity(k, 0, lane, a, b);
+      V y = r - velocity(k, k.bias, 0, lane, a, b);
       if constexpr (on_wall)
         y = solve_on_wall(k.wall + lane, y, r, wall_velocity(k, bodies));
       else
         y = keep(static_cast<typename V::Mask>(~at_most(y, V::all(0.0))), y);
-      const V e = y - r;
-      y.store(run.impulses[g].y[0] + lane);
-      if constexpr (Search) e.store(run.search[g].change[0] + lane);
-      if constexpr (Search && !on_wall) sums.add(lane, e * e);
-      if constexpr (Search && on_wall)
-        for (int i = lane; i < lane + V::width; ++i)
-          sum += run.search[g].change[0][i] * run.search[g].change[0][i];
+      V e;
+      store_impulses<how>(run, g, step, lane, &r, &y, &e);
+      if constexpr (how != SearchKind::none && !on_wall) sums.add(lane, e * e);
+      if constexpr (how != SearchKind::none && on_wall) {
+        alignas(64) typename V::Number changes[V::width];
+        e.store(changes);
+        for (const auto change : changes) sum += change * change;
+      }
       push(k, lane, &e, a, b);
       scatter_bodies(bodies, k.body[0] + lane, a);
       scatter_bodies(bodies, k.body[1] + lane, b);
@@ -389,16 +431,16 @@ BALLAST_INLINE double sweep_run(const GroupRun<Group>& run, SearchStep step,
 }
 
 /// Contacts with friction side by side; of the other kinds one run after the other.
-template <typename V, int K, bool Search, typename Group>
+template <typename V, int K, SearchKind how, typename Group>
 BALLAST_INLINE void sweep_runs(const GroupRun<Group>* runs, SearchStep step,
                                BodyRow<typename V::Number>* bodies, double* squares) {
   if constexpr (Group::rows == 3)
-    runs[0].is_far ? sweep_friction<V, K, Search, true>(runs, step, bodies, squares)
-                   : sweep_friction<V, K, Search, false>(runs, step, bodies, squares);
+    runs[0].is_far ? sweep_friction<V, K, how, true>(runs, step, bodies, squares)
+                   : sweep_friction<V, K, how, false>(runs, step, bodies, squares);
   else
     for (int run = 0; run < 2; ++run) {
-      const double square = sweep_run<V, Search>(runs[run], step, bodies);
-      if constexpr (Search) squares[run] = square;
+      const double square = sweep_run<V, how>(runs[run], step, bodies);
+      if constexpr (how != SearchKind::none) squares[run] = square;
     }
 }
 
@@ -406,10 +448,12 @@ BALLAST_INLINE void sweep_runs(const GroupRun<Group>* runs, SearchStep step,
 template <typename V, int K, typename Group>
 void sweep_loop(const GroupRun<Group> (&runs)[2], const SearchStep* step,
                 BodyRow<typename V::Number>* bodies, double (&squares)[2]) {
-  if (step)
-    sweep_runs<V, K, true>(runs, *step, bodies, squares);
+  if (!step)
+    sweep_runs<V, K, SearchKind::none>(runs, {}, bodies, squares);
+  else if (step->is_conjugate)
+    sweep_runs<V, K, SearchKind::conjugate>(runs, *step, bodies, squares);
   else
-    sweep_runs<V, K, false>(runs, {}, bodies, squares);
+    sweep_runs<V, K, SearchKind::momentum>(runs, *step, bodies, squares);
 }
 
 }  // namespace ballast

@@ -105,7 +105,7 @@ BALLAST_INLINE void make_principal_lanes(FrictionGroup<double>& k, GroupFrame& f
     ((cosine * y + sine * z - c1 * x) * over_t).store(first);
     ((cosine * z - sine * y - c2 * x) * over_t).store(second_row);
   };
-  change(k.bias[0] + lane, k.bias[1] + lane, k.bias[2] + lane);
+  change(f.bias[0] + lane, f.bias[1] + lane, f.bias[2] + lane);
   for (int j = 0; j < 3; ++j) {
     change(k.line[0][j] + lane, k.line[1][j] + lane, k.line[2][j] + lane);
     for (auto& turn : k.turn) change(turn[0][j] + lane, turn[1][j] + lane, turn[2][j] + lane);
@@ -124,7 +124,7 @@ BALLAST_INLINE void make_principal_lanes(Group& k, GroupFrame& f, int lane) {
   n.store(f.normal + lane);
   over_n.store(f.inverse_normal + lane);
   w.store(f.lambda_max + lane);
-  times(k.bias[0] + lane, over_n);
+  times(f.bias[0] + lane, over_n);
   for (int j = 0; j < 3; ++j) {
     times(k.line[0][j] + lane, over_n);
     for (auto& turn : k.turn) times(turn[0][j] + lane, over_n);
@@ -142,9 +142,9 @@ void make_principal_loop(Group* groups, GroupFrame* frames, int count) {
 
 /// Returns the square of the judge's scaled natural map |r - P_K(r - rho (u + mu |u_T| n))| / rho
 /// (see problems/algebra/friction_cone.hpp).
-template <typename V>
-BALLAST_INLINE V natural_map_square(const FrictionGroup<typename V::Number>& k, const GroupFrame& f,
-                                    int lane, const V* r, const V* moved) {
+template <typename V, typename Number>
+BALLAST_INLINE V natural_map_square(const FrictionGroup<Number>& k, const GroupFrame& f, int lane,
+                                    const V* r, const V* moved) {
   const V zero = V::all(0.0), c1 = V::load(k.c1 + lane), c2 = V::load(k.c2 + lane),
           t = V::load(f.tangent + lane), over_t = V::load(f.inverse_tangent + lane),
           mu = V::load(f.mu + lane), lambda = V::load(f.lambda_max + lane);
@@ -179,19 +179,25 @@ requires(Group::rows == 1) BALLAST_INLINE V
   return select(less(V::all(0.0), V::load(f.lambda_max + lane)), e * e, V::all(0.0));
 }
 
-/// Computes the contacts' velocities, including a wall's part.
+/// Computes the contacts' velocities, including a wall's part. In double with the contacts' own
+/// bias, in single precision with that of the sweeps.
 template <typename V, typename Group>
-BALLAST_INLINE void contact_velocities(const Group& k, int lane,
+BALLAST_INLINE void contact_velocities(const Group& k, const GroupFrame& f, int lane,
                                        const BodyRow<typename V::Number>* bodies, V* moved) {
+  constexpr int scale = offset_scale<typename V::Number, Group>;
   V a[6], b[6];
-  gather_bodies(bodies, k.body[0] + lane, a);
-  gather_bodies(bodies, k.body[1] + lane, b);
-  for (int i = 0; i < Group::rows; ++i) moved[i] = velocity(k, i, lane, a, b);
+  gather_bodies<scale>(bodies, k.body[0] + lane, a);
+  gather_bodies<scale>(bodies, k.body[1] + lane, b);
+  for (int i = 0; i < Group::rows; ++i)
+    if constexpr (V::is_double)
+      moved[i] = velocity(k, f.bias, i, lane, a, b);
+    else
+      moved[i] = velocity(k, k.bias, i, lane, a, b);
   if constexpr (requires { k.wall; })
     moved[0] = moved[0] + wall_velocity(k, bodies) * V::load(k.wall + lane);
 }
 
-/// GroupLoops::error
+/// GroupLoops::error, SingleLoops::rough_error
 template <typename V, typename Group>
 double error_loop(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses,
                   const GroupFrame* frames, int count, const BodyRow<typename V::Number>* bodies,
@@ -203,7 +209,7 @@ double error_loop(const Group* groups, const typename GroupLoops<Group>::Impulse
     alignas(64) typename V::Number all_moved[rows][group_lanes];
     for (int lane = 0; lane < group_lanes; lane += V::width) {
       V r[rows], moved[rows];
-      contact_velocities(k, lane, bodies, moved);
+      contact_velocities(k, frames[g], lane, bodies, moved);
       for (int i = 0; i < rows; ++i) {
         r[i] = V::load(impulses[g].y[i] + lane);
         moved[i].store(all_moved[i] + lane);
@@ -218,11 +224,14 @@ double error_loop(const Group* groups, const typename GroupLoops<Group>::Impulse
   return sums.total();
 }
 
-template <typename V, int K, typename Group>
-constexpr GroupLoops<Group> loops{sweep_loop<V, K, Group>, push_loop<V, Group>,
-                                  error_loop<V, Group>};
-template <typename V, int K, typename Group>
-constexpr ExactLoops<Group> exact_loops{loops<V, K, Group>, make_principal_loop<V, Group>};
+/// `D`, `S`: registers of doubles and of singles; so many of each are solved side by side.
+template <typename D, int K, typename Group>
+constexpr ExactLoops<Group> exact_loops{
+    {sweep_loop<D, K, Group>, push_loop<D, Group>, error_loop<D, Group>},
+    make_principal_loop<D, Group>};
+template <typename S, typename D, int K, typename Group>
+constexpr SingleLoops<Group> single_loops{
+    {sweep_loop<S, K, Group>, push_loop<D, Group>, error_loop<D, Group>}, error_loop<S, Group>};
 
 /// The kernels for registers of `Bytes` bytes that solve so many vectors of each type side by side.
 template <int Bytes, int DoubleVectors, int SingleVectors>
@@ -234,8 +243,8 @@ constexpr GroupKernels kernels_of(const char* instruction_set) {
           {{exact_loops<D, d, FrictionGroup<double>>, exact_loops<D, d, OneRowGroup<double>>,
             exact_loops<D, d, WallGroup<double>>},
            move_bodies<D>},
-          {{loops<S, s, FrictionGroup<float>>, loops<S, s, OneRowGroup<float>>,
-            loops<S, s, WallGroup<float>>},
+          {{single_loops<S, D, s, FrictionGroup<float>>, single_loops<S, D, s, OneRowGroup<float>>,
+            single_loops<S, D, s, WallGroup<float>>},
            move_bodies<S>}};
 }
 

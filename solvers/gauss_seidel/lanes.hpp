@@ -65,6 +65,10 @@ struct Lanes {
   static BALLAST_INLINE Lanes load(const double* p) requires(!is_double) {
     return join(rounded(p), rounded(p + width / 2), std::make_integer_sequence<int, width>{});
   }
+  /// Loads singles as doubles.
+  static BALLAST_INLINE Lanes load(const float* p) requires(is_double) {
+    return {__builtin_convertvector(*reinterpret_cast<const Register<float, Bytes / 2>*>(p), Raw)};
+  }
   BALLAST_INLINE void store(Number* p) const { *reinterpret_cast<Raw*>(p) = x; }
   static BALLAST_INLINE Lanes all(double value) {
     return spread(static_cast<Number>(value), std::make_integer_sequence<int, width>{});
@@ -200,15 +204,16 @@ BALLAST_INLINE char* at_offset(void* base, int offset) {
 // The functions below move the bodies of several contacts from rows to lanes and back. They load
 // and store pieces of one size: sixteen bytes, or a whole row where the instruction set allows it.
 // (A load that is larger than the store before it waits until that store has reached the cache.)
+// `Scale`: the offsets are multiplied by it.
 
 using Sixteen = Register<double, 16>;
 
 /// Collects sixteen bytes from each of the byte offsets at[0], at[Stride], ...
-template <int Stride, typename V>
+template <int Stride, int Scale, typename V>
 BALLAST_INLINE V collect(const void* base, const int* at) {
   using Raw = typename V::Raw;
   const auto part = [ base, at ](int k) __attribute__((always_inline)) {
-    return *reinterpret_cast<const Sixteen*>(at_offset(base, at[k * Stride]));
+    return *reinterpret_cast<const Sixteen*>(at_offset(base, Scale * at[k * Stride]));
   };
   if constexpr (V::bytes == 16) {
     return {(Raw)part(0)};
@@ -222,10 +227,10 @@ BALLAST_INLINE V collect(const void* base, const int* at) {
       return {(Raw)__builtin_shufflevector(two(0), two(2), 0, 1, 2, 3, 4, 5, 6, 7)};
   }
 }
-template <int Stride, typename V>
+template <int Stride, int Scale, typename V>
 BALLAST_INLINE void scatter(void* base, const int* at, V value) {
   const auto put = [ base, at ](int k, Sixteen x) __attribute__((always_inline)) {
-    *reinterpret_cast<Sixteen*>(at_offset(base, at[k * Stride])) = x;
+    *reinterpret_cast<Sixteen*>(at_offset(base, Scale * at[k * Stride])) = x;
   };
   const auto put_two = [&put](int k, Register<double, 32> x) __attribute__((always_inline)) {
     put(k, __builtin_shufflevector(x, x, 0, 1));
@@ -271,48 +276,50 @@ BALLAST_INLINE void transpose_squares(const V* rows, V* columns) {
 }
 
 /// Loads six numbers of each row at `at[0]`, `at[1]`, ...: component k of all rows goes to c[k].
-template <typename V>
+template <int Scale = 1, typename V>
 BALLAST_INLINE void gather_bodies(const void* base, const int* at, V* c) {
   if constexpr (V::is_double) {
     for (int pair = 0; pair < 3; ++pair) {
       const void* part = at_offset(base, 16 * pair);
-      const V even = collect<2, V>(part, at), odd = collect<2, V>(part, at + 1);
+      const V even = collect<2, Scale, V>(part, at), odd = collect<2, Scale, V>(part, at + 1);
       c[2 * pair] = interleave<1, false>(even, odd);
       c[2 * pair + 1] = interleave<1, true>(even, odd);
     }
   } else {
     V rows[4], last[4];
-    for (int k = 0; k < 4; ++k) rows[k] = collect<4, V>(base, at + k);
+    for (int k = 0; k < 4; ++k) rows[k] = collect<4, Scale, V>(base, at + k);
     transpose_squares(rows, c);
-    for (int k = 0; k < 4; ++k) rows[k] = collect<4, V>(at_offset(base, 16), at + k);
+    for (int k = 0; k < 4; ++k) rows[k] = collect<4, Scale, V>(at_offset(base, 16), at + k);
     transpose_squares(rows, last);
     c[4] = last[0];
     c[5] = last[1];
   }
 }
 
-template <typename V>
+template <int Scale = 1, typename V>
 BALLAST_INLINE void scatter_bodies(void* base, const int* at, const V* c) {
   if constexpr (V::is_double) {
     for (int pair = 0; pair < 3; ++pair) {
       void* part = at_offset(base, 16 * pair);
-      scatter<2>(part, at, interleave<1, false>(c[2 * pair], c[2 * pair + 1]));
-      scatter<2>(part, at + 1, interleave<1, true>(c[2 * pair], c[2 * pair + 1]));
+      scatter<2, Scale>(part, at, interleave<1, false>(c[2 * pair], c[2 * pair + 1]));
+      scatter<2, Scale>(part, at + 1, interleave<1, true>(c[2 * pair], c[2 * pair + 1]));
     }
   } else {
     const V last[4] = {c[4], c[5], V::all(0.0), V::all(0.0)};
     V rows[4];
     transpose_squares(c, rows);
-    for (int k = 0; k < 4; ++k) scatter<4>(base, at + k, rows[k]);
+    for (int k = 0; k < 4; ++k) scatter<4, Scale>(base, at + k, rows[k]);
     transpose_squares(last, rows);
-    for (int k = 0; k < 4; ++k) scatter<4>(at_offset(base, 16), at + k, rows[k]);
+    for (int k = 0; k < 4; ++k) scatter<4, Scale>(at_offset(base, 16), at + k, rows[k]);
   }
 }
 
 #if defined(__x86_64__)
 // Sixteen bodies of eight singles each: a row fills half a register and is loaded and stored whole.
 
+template <int Scale = 1>
 BALLAST_INLINE void gather_bodies(const void* base, const int* at, Singles<64>* c) {
+  static_assert(Scale == 1);
   const auto row = [ base, at ](int lane) __attribute__((always_inline)) {
     return _mm256_load_pd(reinterpret_cast<const double*>(at_offset(base, at[lane])));
   };
@@ -327,7 +334,9 @@ BALLAST_INLINE void gather_bodies(const void* base, const int* at, Singles<64>* 
     c[4 + k].x = _mm512_shuffle_f32x4(columns[0][k].x, columns[1][k].x, 0xdd);
 }
 
+template <int Scale = 1>
 BALLAST_INLINE void scatter_bodies(void* base, const int* at, const Singles<64>* c) {
+  static_assert(Scale == 1);
   const __m512d zero = _mm512_setzero_pd(),
                 last[4] = {(__m512d)c[4].x, (__m512d)c[5].x, zero, zero};
   // The sixteen bytes of columns[k] in half 0: component k, then component 4 + k of lanes 0-3, then

@@ -1,6 +1,8 @@
 #include "solvers/gauss_seidel/sweep_plan.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace ballast {
 namespace {
@@ -37,10 +39,75 @@ void SweepPlan::find_slabs(const DynamicsForm& dynamics) {
   slabs_ = 1;
   const int wanted = dynamics.body_count() / slab_bodies;
   if (wanted > 1) {
-    find_levels(dynamics);
-    cut_slabs(dynamics, wanted);
+    weigh(dynamics);
+    sort_by_neighbours(dynamics);
+    // Slabs of a large box must be thicker than is wanted, and not too few for a team.
+    const int least = std::min(wanted, least_slabs);
+    int slabs = wanted;
+    while (slabs >= least && !cut_in_order(dynamics, slabs)) slabs = slabs * 3 / 4;
+    if (slabs < least) {
+      find_levels(dynamics);
+      cut_levels(wanted);
+    }
   }
   sort_by_key(slab_, slabs_, body_begin_, bodies_);
+}
+
+/// Every body weighs its contacts.
+void SweepPlan::weigh(const DynamicsForm& dynamics) {
+  weight_.assign(dynamics.body_count(), 0);
+  total_weight_ = 0;
+  for (size_t c = 0; c < dynamics.body_a.size(); ++c)
+    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]})
+      if (body >= 0) {
+        ++weight_[body];
+        ++total_weight_;
+      }
+}
+
+/// Queues the bodies by the mean number of themselves and of those that they touch: so those that
+/// have strayed from where they were numbered come to their neighbours.
+void SweepPlan::sort_by_neighbours(const DynamicsForm& dynamics) {
+  const int bodies = dynamics.body_count();
+  number_sum_.resize(bodies);
+  std::iota(number_sum_.begin(), number_sum_.end(), 0L);
+  count_.assign(bodies, 1);
+  for (size_t c = 0; c < dynamics.body_a.size(); ++c) {
+    const int a = dynamics.body_a[c], b = dynamics.body_b[c];
+    if (a < 0 || b < 0) continue;
+    number_sum_[a] += b;
+    number_sum_[b] += a;
+    ++count_[a];
+    ++count_[b];
+  }
+  key_.resize(bodies);
+  for (int b = 0; b < bodies; ++b) key_[b] = static_cast<int>(number_sum_[b] / count_[b]);
+  sort_by_key(key_, bodies, count_, queue_);
+}
+
+/// Slabs of about equally many contacts, each a range of the queue. Returns false where they are no
+/// slabs: more than an eighth of the contacts for each cut would be in interfaces, or two
+/// interfaces share a body.
+bool SweepPlan::cut_in_order(const DynamicsForm& dynamics, int wanted) {
+  long passed = 0, crossing = 0;
+  for (const int body : queue_) {
+    // bodies without contacts may come after the last contact
+    slab_[body] =
+        std::min(wanted - 1, static_cast<int>(passed * wanted / std::max(1L, total_weight_)));
+    passed += weight_[body];
+  }
+  slabs_ = wanted;
+  meets_.assign(dynamics.body_count(), 0);
+  for (size_t c = 0; c < dynamics.body_a.size(); ++c) {
+    const int a = dynamics.body_a[c], b = dynamics.body_b[c];
+    if (a < 0 || b < 0 || slab_[a] == slab_[b]) continue;
+    const auto [low, high] = slab_[a] < slab_[b] ? std::pair(a, b) : std::pair(b, a);
+    ++crossing;
+    meets_[low] |= 2;
+    meets_[high] |= 1;
+    if (slab_[high] != slab_[low] + 1 || meets_[low] == 3 || meets_[high] == 3) return false;
+  }
+  return crossing * 8 <= static_cast<long>(dynamics.body_a.size()) * (wanted - 1);
 }
 
 /// Levels from a body at the rim: the last one that a first search reached.
@@ -93,33 +160,27 @@ int SweepPlan::breadth_first(int root, int level) {
 
 /// Slabs of about equally many contacts, cut anywhere in the breadth-first order, but three levels
 /// thick where there are more than two: then the interfaces on a slab's two sides share no body.
-void SweepPlan::cut_slabs(const DynamicsForm& dynamics, int wanted) {
+void SweepPlan::cut_levels(int wanted) {
   // Levels of the search, cut into slabs; interiors are contacts within a slab, and
   // interface k joins slabs k and k + 1:
   //
   //     levels   0 1 2 | 3 4 5 | 6 7 8
   //     slabs      0       1       2
   //     interfaces     0       1
-  // Every body weighs its contacts.
-  count_.assign(dynamics.body_count(), 0);
-  long total = 0, passed = 0;
-  for (size_t c = 0; c < dynamics.body_a.size(); ++c)
-    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]})
-      if (body >= 0) {
-        ++count_[body];
-        ++total;
-      }
   // A contact joins bodies of one level or of two that follow each other. A cut within level l is
   // thus crossed by contacts of bodies on the levels l - 1, l and l + 1 only.
+  slabs_ = 1;
+  long passed = 0;   // of the slab
   int last_cut = 0;  // level
   for (const int body : queue_) {
     const bool thick = level_[body] - last_cut >= 3 && levels_ - 1 - level_[body] >= 3;
-    if (passed * wanted >= total * slabs_ && slabs_ < wanted && (thick || wanted == 2)) {
+    if (passed * wanted >= total_weight_ && slabs_ < wanted && (thick || wanted == 2)) {
       ++slabs_;
       last_cut = level_[body] + 1;
+      passed = 0;
     }
     slab_[body] = slabs_ - 1;
-    passed += count_[body];
+    passed += weight_[body];
   }
 }
 

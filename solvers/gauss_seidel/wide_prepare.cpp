@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "problems/algebra/delassus.hpp"
 #include "solvers/gauss_seidel/wide_sweep.hpp"
@@ -29,6 +30,43 @@ struct GroupingRoom {
   std::vector<int> chosen, a, b, walls;
 };
 
+template <typename From, typename To>
+void cast_lanes(const From (&from)[group_lanes], To (&to)[group_lanes]) {
+  for (int lane = 0; lane < group_lanes; ++lane) to[lane] = static_cast<To>(from[lane]);
+}
+
+template <typename From, typename To, int Rows>
+void cast_rows(const From (&from)[Rows][group_lanes], To (&to)[Rows][group_lanes]) {
+  for (int i = 0; i < Rows; ++i) cast_lanes(from[i], to[i]);
+}
+
+/// Byte offsets of body rows are half as large in single precision.
+constexpr int halved(int offset) { return offset / 2; }
+
+template <typename Double, typename Single>
+void cast_group(const Double& k, Single& s) {
+  cast_rows(k.bias, s.bias);
+  cast_rows(k.inverse_mass, s.inverse_mass);
+  for (int i = 0; i < Double::rows; ++i) {
+    cast_rows(k.line[i], s.line[i]);
+    for (int side = 0; side < 2; ++side) cast_rows(k.turn[side][i], s.turn[side][i]);
+  }
+  for (int side = 0; side < 2; ++side)
+    for (int lane = 0; lane < group_lanes; ++lane) s.body[side][lane] = halved(k.body[side][lane]);
+  if constexpr (requires { k.mu; }) {
+    cast_lanes(k.s2, s.s2);
+    cast_lanes(k.inverse_s2, s.inverse_s2);
+    cast_lanes(k.c1, s.c1);
+    cast_lanes(k.c2, s.c2);
+    cast_lanes(k.mu, s.mu);
+    cast_lanes(k.inverse_mu, s.inverse_mu);
+  }
+  if constexpr (requires { k.wall; }) {
+    cast_lanes(k.wall, s.wall);
+    s.wall_body = halved(k.wall_body);
+  }
+}
+
 /// Returns whether `mass` (column-major) is diag(m, m, m, 3 x 3).
 bool is_grain_mass(const double* mass) {
   if (!(mass[0] == mass[7] && mass[0] == mass[14])) return false;
@@ -45,10 +83,22 @@ bool WideSweep::prepare(const FrictionProblem& problem) {
   place_bodies(problem.dynamics);
   if (!group_contacts(problem.dynamics)) return false;
   factor_masses(problem.dynamics, roots_);
-  if (!make_records(problem)) return false;
+  exact_made_ = false;
+  if (!make_records<float>(problem)) return false;
   free_bodies(problem.dynamics);
-  single_made_ = false;
   return true;
+}
+
+/// Makes the records in double, which only few solves need.
+void WideSweep::need_exact() {
+  if (std::exchange(exact_made_, true)) return;
+  for_each_kind(
+      [](auto& exact) {
+        exact.groups.resize(exact.frames.size());
+        exact.impulses.resize(exact.frames.size());
+      },
+      exact_);
+  make_records<double>(*problem_);
 }
 
 /// Finds the driven walls. Returns whether all other bodies are grains.
@@ -137,12 +187,14 @@ bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
     groups += part.friction.count + part.one_row.count;
   }
   for_each_kind(
-      [](auto& kind, int last) {
-        kind.groups.resize(last);
-        kind.frames.resize(last);
-        kind.impulses.resize(last);
+      [](auto& exact, auto& single, int last) {
+        exact.frames.resize(last);
+        single.groups.resize(last);
+        single.impulses.resize(last);
+        single.seen.resize(last);
+        single.awake.resize(last);
       },
-      exact_, end);
+      exact_, single_, end);
   return contacts_ - walls >= least_fill * group_lanes * groups;
 }
 
@@ -202,23 +254,29 @@ bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
   return true;
 }
 
-/// Makes the records; every thread those of its share of the parts.
+/// Makes the frames, and the records in double or single precision; every thread those of its share
+/// of the parts.
+template <typename Number>
 bool WideSweep::make_records(const FrictionProblem& problem) {
+  constexpr bool is_double = sizeof(Number) == 8;
   for_parts_by_slab([&](int number) {
     Part& part = parts_[number];
     const Grouping& grouping = groupings_[number];
     for_each_kind(
-        [&](auto& kind, const auto& lanes, const Range& range, const auto& loops) {
+        [&](auto& exact, auto& single, const auto& lanes, const Range& range, const auto& loops) {
+          typename std::decay_t<decltype(exact)>::GroupOf here;
           for (int g = 0; g < range.count; ++g) {
-            auto& k = kind.groups[range.begin + g];
+            const int at = range.begin + g;
+            auto& k = is_double ? exact.groups[at] : here;
             const bool made = make_group(problem, lanes.contact.data() + g * group_lanes,
-                                         part.nowhere, k, kind.frames[range.begin + g], loops);
+                                         part.nowhere, k, exact.frames[at], loops);
             part.is_vectorisable = part.is_vectorisable && made;
             if constexpr (requires { k.wall; })
               k.wall_body = row_of_body_[grouping.wall_of_group[g]] * row_bytes;
+            if (!is_double) cast_group(k, single.groups[at]);
           }
         },
-        exact_, grouping.lanes, part, kernels_->exact);
+        exact_, single_, grouping.lanes, part, kernels_->exact);
   });
   return std::ranges::all_of(parts_, &Part::is_vectorisable);
 }
@@ -231,18 +289,19 @@ bool WideSweep::make_group(const FrictionProblem& problem, const int* lanes, int
   std::memset(&f, 0, sizeof f);
   std::copy_n(lanes, group_lanes, f.contact);
   for (auto& side : k.body) std::fill_n(side, group_lanes, nowhere * row_bytes);
-  std::fill_n(k.bias[0], group_lanes, 1.0);  // open
+  std::fill_n(f.bias[0], group_lanes, 1.0);  // open
   bool made = true;
   for (int lane = 0; lane < group_lanes; ++lane)
     if (lanes[lane] >= 0 && !fill_lane(problem, k, f, lane)) made = false;
   loops.make_principal(&k, &f, 1);
+  std::copy_n(&f.bias[0][0], Group::rows * group_lanes, &k.bias[0][0]);
   for (int lane = 0; lane < group_lanes; ++lane)  // 0: nothing moves it along its normal
     if (lanes[lane] >= 0 && !(f.lambda_max[lane] > 0.0)) made = false;
   return made;
 }
 
-/// Writes rows and bias as the problem gives them, in the bodies' variables. False: the two sides'
-/// linear parts are not opposite.
+/// Writes rows, bias and mu as the problem gives them, in the bodies' variables. False: the two
+/// sides' linear parts are not opposite.
 template <typename Group>
 bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& f, int lane) const {
   constexpr int rows = Group::rows;
@@ -278,7 +337,7 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
       k.line[i][j][lane] = sign * line[j * rows + i];
       unlike += linear[0] && linear[1] && linear[0][j * rows + i] != -line[j * rows + i];
     }
-  for (int i = 0; i < rows; ++i) k.bias[i][lane] = dynamics.bias[problem.row_begin[c] + i];
+  for (int i = 0; i < rows; ++i) f.bias[i][lane] = dynamics.bias[problem.row_begin[c] + i];
   f.mu[lane] = problem.friction[c];
   return unlike == 0;
 }

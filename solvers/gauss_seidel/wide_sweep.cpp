@@ -1,9 +1,11 @@
 #include "solvers/gauss_seidel/wide_sweep.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 
 namespace ballast {
 namespace {
@@ -11,6 +13,8 @@ namespace {
 /// The rounding of single precision may be up to this share of the error.
 constexpr double allowed_share = 1.0 / 30.0;
 
+/// Of records and impulses in single precision: what they change in the error, over the impulses as
+/// velocities n y' of their contacts, rms. On captured steps of the box at most a sixth of it.
 constexpr double single_rounding = 0x1p-24;
 
 /// A contact may rest if it opens faster than this many times the error. On the box the number of
@@ -20,86 +24,86 @@ constexpr double rests_from = 16.0;
 /// Records with more bytes than this do not stay in a core's cache from sweep to sweep.
 constexpr size_t far_bytes = 4 << 20;
 
-template <typename From, typename To, int Rows>
-void cast_rows(const From (&from)[Rows][group_lanes], To (&to)[Rows][group_lanes]) {
-  for (int i = 0; i < Rows; ++i)
-    for (int lane = 0; lane < group_lanes; ++lane) to[i][lane] = static_cast<To>(from[i][lane]);
-}
-
-template <typename From, typename To>
-void cast_lanes(const From (&from)[group_lanes], To (&to)[group_lanes]) {
-  for (int lane = 0; lane < group_lanes; ++lane) to[lane] = static_cast<To>(from[lane]);
-}
-
-/// Byte offsets of body rows are half as large in single precision.
-constexpr int halved(int offset) { return offset / 2; }
-
-template <typename Double, typename Single>
-void cast_group(const Double& k, Single& s) {
-  cast_rows(k.bias, s.bias);
-  cast_rows(k.inverse_mass, s.inverse_mass);
-  for (int i = 0; i < Double::rows; ++i) {
-    cast_rows(k.line[i], s.line[i]);
-    for (int side = 0; side < 2; ++side) cast_rows(k.turn[side][i], s.turn[side][i]);
-  }
-  for (int side = 0; side < 2; ++side)
-    for (int lane = 0; lane < group_lanes; ++lane) s.body[side][lane] = halved(k.body[side][lane]);
-  if constexpr (requires { k.mu; }) {
-    cast_lanes(k.s2, s.s2);
-    cast_lanes(k.inverse_s2, s.inverse_s2);
-    cast_lanes(k.c1, s.c1);
-    cast_lanes(k.c2, s.c2);
-    cast_lanes(k.mu, s.mu);
-    cast_lanes(k.inverse_mu, s.inverse_mu);
-  }
-  if constexpr (requires { k.wall; }) {
-    cast_lanes(k.wall, s.wall);
-    s.wall_body = halved(k.wall_body);
-  }
+/// Puts an impulse that is on its cone up to rounding there.
+void put_on_cone(double mu, double* r) {
+  r[0] = std::max(r[0], 0.0);
+  const double most = mu * r[0], tangential = std::sqrt(r[1] * r[1] + r[2] * r[2]);
+  if (!(tangential > most)) return;
+  r[1] *= most / tangential;
+  r[2] *= most / tangential;
 }
 
 }  // namespace
 
 void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
-  for_parts_in_phases(exact_, [&](const Part& part) {
+  problem_ = &problem;
+  start_ = r;
+  at_start_ = true;
+  in_single_ = single_begins_ = single_allowed_;
+  start_search();
+  if (in_single_)
+    load_into(single_, kernels_->single, r);
+  else
+    load_into(exact_, kernels_->exact, r);
+}
+
+template <typename Number, typename Kernels>
+void WideSweep::load_into(State<Number>& state, const Kernels& kernels, const Impulses& r) {
+  if constexpr (std::is_same_v<Number, double>)
+    need_exact();
+  else
+    state.bodies.assign(exact_.bodies.size(), {});
+  for_parts_in_phases(exact_, [&](Part& part) {
     for_each_kind(
-        [&](auto& kind, const Range& range) {
+        [&](auto& kind, const auto& exact, const Range& range) {
           for (int g = range.begin; g < range.begin + range.count; ++g) {
             kind.impulses[g] = {};
-            const GroupFrame& f = kind.frames[g];
+            const GroupFrame& f = exact.frames[g];
             auto& y = kind.impulses[g].y;
             for (int i = 0; i < group_lanes; ++i) {
               if (f.contact[i] < 0) continue;
-              const double* rc = r.data() + problem.row_begin[f.contact[i]];
+              const double* rc = r.data() + problem_->row_begin[f.contact[i]];
               // The y' of group_kernels.hpp: n r_N + c' . (t r_T), with r_T turned to the principal
               // tangents.
-              y[0][i] = f.normal[i] * rc[0];
+              double normal = f.normal[i] * rc[0];
               if constexpr (requires { kind.groups[g].mu; }) {
                 const auto& k = kind.groups[g];
-                y[1][i] = f.tangent[i] * (f.cosine[i] * rc[1] + f.sine[i] * rc[2]);
-                y[2][i] = f.tangent[i] * (f.cosine[i] * rc[2] - f.sine[i] * rc[1]);
-                y[0][i] += k.c1[i] * y[1][i] + k.c2[i] * y[2][i];
+                const double t1 = f.tangent[i] * (f.cosine[i] * rc[1] + f.sine[i] * rc[2]),
+                             t2 = f.tangent[i] * (f.cosine[i] * rc[2] - f.sine[i] * rc[1]);
+                normal += k.c1[i] * t1 + k.c2[i] * t2;
+                y[1][i] = static_cast<Number>(t1);
+                y[2][i] = static_cast<Number>(t2);
               }
+              y[0][i] = static_cast<Number>(normal);
             }
           }
         },
-        exact_, part);
-    push_part(part);
+        state, exact_, part);
+    push_part(state, kernels, part);
   });
-  in_single_ = false;
-  single_begins_ = single_allowed_;
+  if (in_single_) last_bodies_ = exact_.bodies;
 }
 
-/// Gives a slab's bodies their free velocities; then every impulse of the part pushes once.
-void WideSweep::push_part(const Part& part) {
+/// Gives a slab's bodies their free velocities; then every impulse of the part pushes once. In
+/// single precision it also sums the squares of the normal impulses, as velocities n y'.
+template <typename Number, typename Kernels>
+void WideSweep::push_part(const State<Number>& state, const Kernels& kernels, Part& part) {
   std::copy_n(free_.begin() + part.bodies.begin, part.bodies.count,
               exact_.bodies.begin() + part.bodies.begin);
+  double squares[group_lanes] = {};
   for_each_kind(
-      [this](const auto& kind, const auto& loops, const Range& range) {
+      [&](const auto& kind, const auto& exact, const auto& loops, const Range& range) {
         loops.push(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
                    range.count, exact_.bodies.data());
+        if constexpr (std::is_same_v<Number, float>)
+          for (int g = range.begin; g < range.begin + range.count; ++g)
+            for (int lane = 0; lane < group_lanes; ++lane) {
+              const double y = exact.frames[g].normal[lane] * kind.impulses[g].y[0][lane];
+              squares[lane] += y * y;
+            }
       },
-      exact_, kernels_->exact, part);
+      state, exact_, kernels, part);
+  part.impulse_square = std::accumulate(squares, squares + group_lanes, 0.0);
 }
 
 /// Prefetches all body rows that another core may have written last. Fetched one by one, as the
@@ -118,28 +122,46 @@ void WideSweep::prefetch_shared(const State<Number>& state, const Part& interfac
 void WideSweep::store(const FrictionProblem& problem, Impulses& r) const {
   // Contacts between two bodies that never move belong to no group.
   r.setZero(problem.row_count());
+  in_single_ ? store_from(single_, r) : store_from(exact_, r);
+}
+
+/// Impulses in single precision are on their cone up to its rounding: they are put there. Impulses
+/// that no sweep has changed are those that were loaded.
+template <typename Number>
+void WideSweep::store_from(const State<Number>& state, Impulses& r) const {
   for_parts_by_slab([&](int part) {
     for_each_kind(
-        [&](const auto& kind, const Range& range) {
+        [&](const auto& kind, const auto& exact, const Range& range) {
           for (int g = range.begin; g < range.begin + range.count; ++g) {
-            const GroupFrame& f = kind.frames[g];
+            const GroupFrame& f = exact.frames[g];
             const auto& y = kind.impulses[g].y;
+            constexpr int rows = std::extent_v<std::remove_reference_t<decltype(y)>>;
             for (int i = 0; i < group_lanes; ++i) {
               if (f.contact[i] < 0) continue;
-              double* rc = r.data() + problem.row_begin[f.contact[i]];
-              rc[0] = f.inverse_normal[i] * y[0][i];
-              if constexpr (requires { kind.groups[g].mu; }) {
+              const int row = problem_->row_begin[f.contact[i]];
+              double* rc = r.data() + row;
+              if (at_start_) {
+                std::copy_n(start_.data() + row, rows, rc);
+                continue;
+              }
+              double normal = y[0][i];
+              if constexpr (rows == 3) {
                 const auto& k = kind.groups[g];
-                rc[0] = f.inverse_normal[i] * (y[0][i] - k.c1[i] * y[1][i] - k.c2[i] * y[2][i]);
+                const double t1 = y[1][i], t2 = y[2][i];
+                normal -= k.c1[i] * t1 + k.c2[i] * t2;
+              }
+              rc[0] = f.inverse_normal[i] * normal;
+              if constexpr (rows == 3) {
                 const double t1 = f.inverse_tangent[i] * y[1][i],
                              t2 = f.inverse_tangent[i] * y[2][i];
                 rc[1] = f.cosine[i] * t1 - f.sine[i] * t2;
                 rc[2] = f.sine[i] * t1 + f.cosine[i] * t2;
+                if constexpr (std::is_same_v<Number, float>) put_on_cone(f.mu[i], rc);
               }
             }
           }
         },
-        exact_, parts_[part]);
+        state, exact_, parts_[part]);
   });
 }
 
@@ -193,7 +215,13 @@ double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, const S
 
 double WideSweep::sweep_in_precision(const SearchStep* step) {
   if (single_begins_) error();
-  if (step && !in_single_ && search_begins_) start_search_in(exact_);
+  if (step && std::exchange(search_begins_, false)) {
+    if (in_single_)
+      start_search_in(single_);
+    else
+      start_search_in(exact_);
+  }
+  at_start_ = false;
   ++unseen_;
   return in_single_ ? sweep_in(single_, kernels_->single, step)
                     : sweep_in(exact_, kernels_->exact, step);
@@ -201,53 +229,71 @@ double WideSweep::sweep_in_precision(const SearchStep* step) {
 
 template <typename Number>
 void WideSweep::start_search_in(State<Number>& state) {
-  search_begins_ = false;
   for_each_kind([](auto& kind) { kind.search.assign(kind.groups.size(), {}); }, state);
   state.before = state.bodies;
   state.direction.assign(state.bodies.size(), {});
 }
 
-/// In double the search starts only with the first sweep_along(), which most solves never call.
+/// The search starts only with the first sweep_along(), which most solves in double never call.
 void WideSweep::start_search() {
-  search_begins_ = !in_single_;
-  if (in_single_) start_search_in(single_);
+  search_begins_ = true;
+  for_each_kind([](auto& single) { single.search.clear(); }, single_);
 }
 
 double WideSweep::error() {
-  if (!single_begins_ && !in_single_) return error_in(exact_, kernels_->exact);
-  const bool begins = single_begins_;
-  begins ? enter_single() : refresh();
-  seen_error_ = error_in(exact_, kernels_->exact);
+  if (!in_single_) return error_in<false>(exact_, kernels_->exact);
+  if (!at_start_) {
+    last_bodies_.swap(exact_.bodies);
+    for_parts_in_phases(exact_, [this](Part& part) { push_part(single_, kernels_->single, part); });
+  }
+  seen_error_ = error_in</*is_rough=*/false>(single_, kernels_->single);
   for_parts_in_phases(exact_, [this](Part& part) { settle(part); });
   unseen_ = 0;
-  begins || single_suffices(seen_error_) ? choose_awake(seen_error_) : leave_single();
-  return seen_error_;
+  single_begins_ = false;
+  const double rounding = rounding_of_impulses();
+  if (!(rounding + drift_of_bodies() <= allowed_share * seen_error_)) {
+    leave_single();
+    return error_in<false>(exact_, kernels_->exact);
+  }
+  choose_awake(seen_error_);
+  return seen_error_ + rounding;
 }
 
 /// Calls error() before rounding could show in the rough error, and after many sweeps without it.
 double WideSweep::rough_error() {
   constexpr int most_unseen = 64;
   constexpr double least_share = 1.0 / 32.0;
-  if (!in_single_ || unseen_ >= most_unseen) return error();
-  const double rough = error_in(single_, kernels_->single);
+  if (!in_single_ || single_begins_ || unseen_ >= most_unseen) return error();
+  const double rough = error_in</*is_rough=*/true>(single_, kernels_->single);
   if (!(rough > least_share * seen_error_)) return error();
   choose_awake(rough);
   return rough;
 }
 
-template <typename Number, typename Kernels>
-double WideSweep::error_in(const State<Number>& state, const Kernels& kernels) {
-  for_parts_in_phases(state, [&](Part& part) {
+/// The error in double, or the rough one in single precision.
+template <bool is_rough, typename Number, typename Kernels>
+double WideSweep::error_in(State<Number>& state, const Kernels& kernels) {
+  const auto add = [&](Part& part) {
     part.error_square = 0.0;
     for_each_kind(
         [&](const auto& kind, const auto& exact, auto& single, const auto& loops, Range range) {
-          part.error_square +=
-              loops.error(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
-                          exact.frames.data() + range.begin, range.count, state.bodies.data(),
-                          in_single_ ? single.seen.data() + range.begin : nullptr);
+          const auto evaluate = [&](auto loop, const auto& bodies) {
+            part.error_square +=
+                loop(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
+                     exact.frames.data() + range.begin, range.count, bodies.data(),
+                     in_single_ ? single.seen.data() + range.begin : nullptr);
+          };
+          if constexpr (is_rough)
+            evaluate(loops.rough_error, state.bodies);
+          else
+            evaluate(loops.error, exact_.bodies);
         },
         state, exact_, single_, kernels, part);
-  });
+  };
+  if constexpr (is_rough)
+    for_parts_in_phases(state, add);
+  else
+    for_parts_in_phases(exact_, add);
   double sum = 0.0;
   for (const Part& part : parts_) sum += part.error_square;
   return contacts_ > 0 ? std::sqrt(sum / contacts_) : 0.0;
@@ -255,61 +301,11 @@ double WideSweep::error_in(const State<Number>& state, const Kernels& kernels) {
 
 // Sweeps in single precision, corrected in double by every error().
 //
-// error() casts the impulses to double and lets them push the bodies in double. Each contact's
-// resulting velocity becomes its bias, and the bodies of the single state start at zero again. The
-// fixed point of the single sweeps is therefore the solution of the double problem, and they round
-// only the change since that error(). The rounding of the impulses themselves remains.
-
-/// Casts the impulses, and the records once for each prepare().
-void WideSweep::enter_single() {
-  single_begins_ = false;
-  in_single_ = true;
-  for_each_kind(
-      [](const auto& exact, auto& single) {
-        single.impulses.resize(exact.groups.size());
-        single.groups.resize(exact.groups.size());
-        single.seen.resize(exact.groups.size());
-        single.awake.resize(exact.groups.size());
-      },
-      exact_, single_);
-  for_parts_in_phases(exact_, [this](const Part& part) {
-    for_each_kind(
-        [this](const auto& exact, auto& single, const Range& range) {
-          for (int g = range.begin; g < range.begin + range.count; ++g) {
-            if (!single_made_) cast_group(exact.groups[g], single.groups[g]);
-            cast_rows(exact.impulses[g].y, single.impulses[g].y);
-            cast_lanes(exact.impulses[g].miss, single.impulses[g].miss);
-          }
-        },
-        exact_, single_, part);
-  });
-  single_made_ = true;
-  single_.bodies.assign(exact_.bodies.size(), {});
-  last_bodies_ = exact_.bodies;
-  start_search();
-}
-
-/// Casts the iterate to double and sums the squares of its normal impulses, as velocities n y'.
-void WideSweep::refresh() {
-  last_bodies_.swap(exact_.bodies);
-  for_parts_in_phases(exact_, [this](Part& part) {
-    double squares[group_lanes] = {};
-    for_each_kind(
-        [&squares](const auto& single, auto& exact, const Range& range) {
-          for (int g = range.begin; g < range.begin + range.count; ++g) {
-            cast_rows(single.impulses[g].y, exact.impulses[g].y);
-            cast_lanes(single.impulses[g].miss, exact.impulses[g].miss);
-            for (int lane = 0; lane < group_lanes; ++lane) {
-              const double y = exact.frames[g].normal[lane] * exact.impulses[g].y[0][lane];
-              squares[lane] += y * y;
-            }
-          }
-        },
-        single_, exact_, part);
-    part.impulse_square = std::accumulate(squares, squares + group_lanes, 0.0);
-    push_part(part);
-  });
-}
+// Records and impulses are singles. error() lets the impulses push the bodies in double. Each
+// contact's resulting velocity becomes its bias, and the bodies of the single state start at zero
+// again. So the sweeps round only the change since that error(), and what remains is the rounding
+// of the impulses and records themselves. Where that may show in the error, records are made in
+// double, and the sweeps go on with them.
 
 /// Sums the squared drift of a slab's bodies: the difference of the velocities that the impulses
 /// give and those that the single sweeps had. Then the single bodies start at zero (with the last
@@ -321,28 +317,34 @@ void WideSweep::settle(Part& part) {
       const double off = exact_.bodies[b].w[i] - last_bodies_[b].w[i] - single_.bodies[b].w[i];
       part.drift_square += off * off;
     }
-    for (int i = 0; i < 8; ++i) single_.before[b].w[i] -= single_.bodies[b].w[i];
+    if (!search_begins_)
+      for (int i = 0; i < 8; ++i) single_.before[b].w[i] -= single_.bodies[b].w[i];
     single_.bodies[b] = {};
   }
   for_each_kind(
       [](auto& single, const Range& range) {
         for (int g = range.begin; g < range.begin + range.count; ++g)
-          cast_rows(single.seen[g].u, single.groups[g].bias);
+          std::memcpy(single.groups[g].bias, single.seen[g].u, sizeof single.seen[g].u);
       },
       single_, part);
 }
 
-/// Compares two estimates of rounding with the error: the rounding of impulses, as velocities of
-/// their contacts no smaller than 2^-24 n y' (rms), and the rms drift of the bodies' velocities.
-bool WideSweep::single_suffices(double error) const {
-  double impulses = 0.0, drift = 0.0, bodies = 0.0;
+/// How much the rounding of impulses and records may change the error: a multiple of the impulses'
+/// own rounding as velocities of their contacts, rms.
+double WideSweep::rounding_of_impulses() const {
+  double squares = 0.0;
+  for (const Part& part : parts_) squares += part.impulse_square;
+  return single_rounding * std::sqrt(squares / std::max(1, contacts_));
+}
+
+/// rms over bodies.
+double WideSweep::drift_of_bodies() const {
+  double squares = 0.0, bodies = 0.0;
   for (const Part& part : parts_) {
-    impulses += part.impulse_square;
-    drift += part.drift_square;
+    squares += part.drift_square;
     bodies += part.bodies.count;
   }
-  const double rounding = single_rounding * std::sqrt(impulses / std::max(1, contacts_));
-  return rounding + std::sqrt(drift / bodies) <= allowed_share * error;
+  return std::sqrt(squares / bodies);
 }
 
 /// Lets a group rest if its contacts have no impulse and open fast: a sweep would leave them so.
@@ -382,20 +384,25 @@ int WideSweep::resting_groups() const {
   return resting;
 }
 
+/// Goes on in double from the impulses that were loaded, or that the sweeps have made.
 void WideSweep::leave_single() {
   in_single_ = false;
   start_search();
-}
-
-bool WideSweep::finish_in_double() {
-  single_begins_ = false;
-  if (!in_single_) return false;
-  // After one more sweep in double every contact obeys its law as if all sweeps had been in double.
-  refresh();
-  leave_single();
-  sweep();
-  start_search();
-  return true;
+  if (at_start_) return load_into(exact_, kernels_->exact, start_);
+  need_exact();
+  for_parts_in_phases(exact_, [this](Part& part) {
+    for_each_kind(
+        [](auto& exact, const auto& single, const Range& range) {
+          for (int g = range.begin; g < range.begin + range.count; ++g) {
+            const auto& from = single.impulses[g];
+            auto& to = exact.impulses[g];
+            for (size_t i = 0; i < std::size(from.y); ++i) std::ranges::copy(from.y[i], to.y[i]);
+            std::ranges::copy(from.miss, to.miss);
+          }
+        },
+        exact_, single_, part);
+    push_part(exact_, kernels_->exact, part);
+  });
 }
 
 }  // namespace ballast

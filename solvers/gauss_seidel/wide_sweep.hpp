@@ -36,16 +36,13 @@ class WideSweep final : public ContactSweep {
   double sweep_along(SearchStep step) override { return sweep_in_precision(&step); }
   double error() override;
 
-  /// Sets whether sweeps from the next load() on are in single precision, until finish_in_double()
-  /// or until their rounding shows in the error. Loads, stores and error() are always in double.
+  /// Sets whether records and impulses from the next load() on are in single precision, until their
+  /// rounding may show in the error. error() computes in double, also with them.
   void allow_single(bool allowed) override { single_allowed_ = allowed; }
-  /// The error of the single-precision iterate at a third of error()'s cost, at times error().
+  /// The error of the single-precision iterate at less than error()'s cost, at times error().
   double rough_error() override;
   bool is_storable() const override { return !in_single_ || unseen_ == 0; }
-  /// Where sweeps were in single precision: sweeps once more in double, stays in double until the
-  /// next load(), starts a new search and returns true. Otherwise returns false.
-  bool finish_in_double() override;
-  bool is_single() const { return in_single_; }
+  bool is_single() const override { return in_single_; }
 
   /// For tests: sets the instruction set, lets no group rest, returns how many groups rest.
   void use_kernels(const GroupKernels& kernels) { kernels_ = &kernels; }
@@ -56,11 +53,12 @@ class WideSweep final : public ContactSweep {
   /// The groups of one kind, and their impulses.
   template <typename Group>
   struct Kind {
+    using GroupOf = Group;
     using Loops = GroupLoops<Group>;
     std::vector<Group> groups;
     std::vector<GroupFrame> frames;  ///< in double only
     std::vector<typename Loops::Impulses> impulses;
-    std::vector<typename Loops::Search> search;
+    std::vector<typename Loops::Search> search;  ///< empty before a search's first sweep
     // In single precision only: velocities at the last error evaluation; groups to sweep (Range).
     std::vector<GroupVelocities<Group::rows>> seen;
     std::vector<int> awake;
@@ -111,7 +109,9 @@ class WideSweep final : public ContactSweep {
   void place_bodies(const DynamicsForm& dynamics);
   bool group_contacts(const DynamicsForm& dynamics);
   bool group_part(const DynamicsForm& dynamics, int number);
+  template <typename Number>
   bool make_records(const FrictionProblem& problem);
+  void need_exact();
   template <typename Group>
   bool make_group(const FrictionProblem& problem, const int* lanes, int nowhere, Group& group,
                   GroupFrame& frame, const ExactLoops<Group>& loops) const;
@@ -153,7 +153,12 @@ class WideSweep final : public ContactSweep {
   }
   template <typename Number>
   void prefetch_shared(const State<Number>& state, const Part& interface) const;
-  void push_part(const Part& part);
+  template <typename Number, typename Kernels>
+  void load_into(State<Number>& state, const Kernels& kernels, const Impulses& r);
+  template <typename Number>
+  void store_from(const State<Number>& state, Impulses& r) const;
+  template <typename Number, typename Kernels>
+  void push_part(const State<Number>& state, const Kernels& kernels, Part& part);
   template <typename Number, typename Kernels>
   void sweep_parts(State<Number>& state, const Kernels& kernels, const SearchStep* step,
                    std::span<Part> parts);
@@ -163,12 +168,11 @@ class WideSweep final : public ContactSweep {
   template <typename Number>
   void start_search_in(State<Number>& state);
 
-  void enter_single();
-  void refresh();
   void settle(Part& part);
-  template <typename Number, typename Kernels>
-  double error_in(const State<Number>& state, const Kernels& kernels);
-  bool single_suffices(double error) const;
+  template <bool is_rough, typename Number, typename Kernels>
+  double error_in(State<Number>& state, const Kernels& kernels);
+  double rounding_of_impulses() const;
+  double drift_of_bodies() const;
   void choose_awake(double error);
   void leave_single();
 
@@ -185,7 +189,9 @@ class WideSweep final : public ContactSweep {
   std::vector<Grouping> groupings_;  ///< of each part; never shrinks
   int contacts_ = 0;                 ///< number of contacts that something moves
 
-  State<double> exact_;
+  const FrictionProblem* problem_ = nullptr;  ///< of the last load()
+  State<double> exact_;                       ///< bodies and frames; the rest where it is needed
+  bool exact_made_ = false;                   ///< its records, since prepare()
   std::vector<BodyRow<double>> free_;
   std::vector<Part> parts_;  ///< in the plan's order, in which sums over parts are added
 
@@ -193,12 +199,13 @@ class WideSweep final : public ContactSweep {
   // the contacts had then are their biases, so that only the change is rounded.
   State<float> single_;
   std::vector<BodyRow<double>> last_bodies_;  ///< exact_.bodies at the last error()
-  bool single_made_ = false;                  ///< records were cast since prepare()
+  Impulses start_;                            ///< as they were loaded
+  bool at_start_ = false;                     ///< no sweep since then
+  bool single_begins_ = false;                ///< no look in single precision since then
   bool single_allowed_ = false;               ///< from the next load() on
-  bool single_begins_ = false;                ///< at the next error() or sweep
   bool may_rest_ = true;                      ///< see choose_awake()
   bool in_single_ = false;
-  bool search_begins_ = false;  ///< in double: the next sweep_along() starts the search
+  bool search_begins_ = false;  ///< the next sweep_along() starts the search
   int unseen_ = 0;              ///< single sweeps since the last error()
   double seen_error_ = 0.0;     ///< what that error() returned
 };

@@ -1,3 +1,7 @@
+#include <cmath>
+#include <set>
+#include <tuple>
+
 #include "experiments/box/packing.hpp"
 #include "experiments/step/time_step.hpp"
 #include "platform/text.hpp"
@@ -48,16 +52,23 @@ TEST_CASE("a tiled box is copies of a small one's grains and packing") {
   const Packing tile = taken(one, folder.path());
   MotionState state;
   box_system(scene, rain, BoxStage::settle, tile.deposit.lid, &state);
-  place_copies(scene, tile.state, state);
+  place_copies(rain, tile.state, state);
+  // Each grain of the tile is once in each of the six, and all are numbered along x.
+  std::set<std::tuple<size_t, double, double>> copies;
   for (size_t b = 0; b < 30; ++b) {
-    const size_t copy = b / 5, of = b % 5;
-    const Vec3 shift(copy % 3 * one.box.length, copy / 3 * one.box.width, 0.0);
+    const auto& [of, shift] = rain.copies[b];
+    copies.emplace(of, std::round(shift.x() / one.box.length),
+                   std::round(shift.y() / one.box.width));
     CHECK(rain.grains[b].name == "grain " + std::to_string(b));
-    CHECK(rain.grains[b].shape == rain.grains[of].shape);
+    CHECK((rain.grains[b].pose.position - grains.grains[of].pose.position - shift).norm() < 1e-15);
+    if (b > 0) CHECK(rain.grains[b - 1].pose.position.x() <= rain.grains[b].pose.position.x());
     CHECK(rain.grains[b].mass == grains.grains[of].mass);
     CHECK((state.pose[b].position - tile.state.pose[of].position - shift).norm() < 1e-15);
     CHECK(state.velocity[b] == tile.state.velocity[of]);
   }
+  CHECK(copies.size() == 30);
+  CHECK(std::get<1>(*copies.rbegin()) == 2.0);
+  CHECK(std::get<2>(*copies.rbegin()) == 1.0);
 }
 
 TEST_CASE("a tiled box is deposited: its tile, then what is loose between the copies") {

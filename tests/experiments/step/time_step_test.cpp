@@ -24,6 +24,26 @@ TEST_CASE("a force that closes a gap within a step is met by the floor") {
   CHECK(state.pose[0].position.z() > 0.05 - 1e-6);
 }
 
+TEST_CASE("a load that pushes a driven wall onto a body within a step is borne by the body") {
+  Scene scene = empty_scene();
+  WallSpec lid;
+  lid.name = "lid";
+  lid.normal = -Vec3::UnitZ();
+  lid.offset = -(0.1 + 1e-3);  // a millimetre over the cube
+  lid.motion = WallMotion::driven;
+  lid.mass = 1.0;
+  lid.load = {1e4, 1e4, 0.0};
+  scene.walls = {floor_at_zero(0.4), lid};
+  scene.bodies.push_back(cube("pressed", 0.1, 1.0, Vec3(0, 0, 0.05)));
+  MotionState state;
+  const MechanicalSystem system = make_system(scene, state);
+  TimeStepper stepper(system, scene, 2);
+  StepMemory memory;
+  stepper.step(state, memory);
+  CHECK(stepper.problem().contact_count() == 8);
+  CHECK(outward_displacement(system, state, 2) > -1e-3 - 1e-6);
+}
+
 TEST_CASE("a floor that starts to move where a step ends does the work that the body has") {
   Scene scene = empty_scene();
   scene.gravity = Vec3::Zero();

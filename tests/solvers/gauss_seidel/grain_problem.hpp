@@ -80,9 +80,9 @@ inline FrictionProblem grain_problem(const GrainSettings& settings = {}) {
   return GrainProblem(settings).problem;
 }
 
-/// A search's step before its k-th sweep: zero, then along the last change, later with momentum.
-inline SearchStep varied_step(int k) {
-  return {k < 2 ? 0.0 : 0.5, k < 1 ? 0.0 : 1.0, k < 9 ? 0.0 : 0.4};
+/// A search's step before its k-th sweep: zero, later along the sweeps before.
+inline SearchStep varied_step(int k, bool is_conjugate) {
+  return {k < 2 ? 0.0 : 0.3 + 0.05 * (k % 7), is_conjugate};
 }
 
 /// A wide sweep from zero impulses, in double or single precision.

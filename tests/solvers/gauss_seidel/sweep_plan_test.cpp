@@ -37,7 +37,7 @@ FrictionProblem long_box(int bodies, std::uint64_t seed) {
   return problem;
 }
 
-/// The same with its bodies numbered at random.
+/// The same with its bodies numbered at random: slabs are not ranges of numbers.
 FrictionProblem shuffled(FrictionProblem problem, std::uint64_t seed) {
   Random random(seed);
   std::vector<int> number(problem.dynamics.body_count());
@@ -48,6 +48,15 @@ FrictionProblem shuffled(FrictionProblem problem, std::uint64_t seed) {
     for (int& body : *side)
       if (body >= 0) body = number[body];
   return problem;
+}
+
+/// Whether each slab is a range of the bodies' numbers, up to some at its two ends.
+bool is_in_order(const SweepPlan& plan) {
+  for (int slab = 0; slab < plan.slabs(); ++slab)
+    if (const auto bodies = plan.bodies(slab);
+        !bodies.empty() && bodies.back() - bodies.front() + 1 > std::ssize(bodies) + 50)
+      return false;
+  return true;
 }
 
 /// No body is met by two of the parts.
@@ -99,12 +108,21 @@ std::vector<std::vector<int>> slowly(const Graph& graph) {
 
 TEST_CASE("a sweep's plan: every contact once, and nothing that runs side by side shares a body") {
   SweepPlan plan;
-  for (const int bodies : {1, 30, 600, 1200, 4000, 4000}) {
-    const FrictionProblem problem =
+  for (const auto& [bodies, in_order] : {std::pair(1, true),
+                                         {30, true},
+                                         {600, true},
+                                         {1200, true},
+                                         {4000, true},
+                                         {1200, false},
+                                         {4000, false},
+                                         {4000, false}}) {
+    FrictionProblem problem =
         bodies < 100 ? make_known_solution({.bodies = bodies, .contacts = bodies}).problem
                      : long_box(bodies, static_cast<std::uint64_t>(bodies));
-    CAPTURE(bodies);
+    if (!in_order) problem = shuffled(std::move(problem), 4);
+    CAPTURE(bodies, in_order);
     plan.prepare(problem);
+    CHECK(is_in_order(plan) == in_order);
     std::vector<int> sorted = plan.contacts();
     std::sort(sorted.begin(), sorted.end());
     for (int c = 0; c < problem.contact_count(); ++c) REQUIRE(sorted[c] == c);
@@ -166,6 +184,48 @@ TEST_CASE("a sweep's plan: contacts that open come last, those that open fastest
       opened += octave(i) > -none;
     }
   CHECK(opened > problem.contact_count() / 5);
+}
+
+TEST_CASE("no contact joins other slabs than neighbours, and no body meets two interfaces") {
+  const FrictionProblem problem = long_box(2000, 7);  // four slabs
+  SweepPlan plan;
+  plan.prepare(problem);
+  REQUIRE(is_in_order(plan));
+  REQUIRE(plan.slabs() == 4);
+  const int first = plan.bodies(1).front(), second = plan.bodies(2).front();
+  const int before = first - 200, middle = first + 200, after = second + 200;
+  using Contacts = std::vector<std::pair<int, int>>;
+  // one contact more over a cut, one over two cuts, two over two cuts that meet in a body
+  for (const Contacts& contacts :
+       {Contacts{{before, middle}}, {{before, after}}, {{before, middle}, {middle, after}}}) {
+    FrictionProblem changed = problem;
+    int c = 0;
+    for (const auto& [a, b] : contacts) {
+      changed.dynamics.body_a[c] = a;
+      changed.dynamics.body_b[c++] = b;
+    }
+    plan.prepare(changed);
+    CHECK(plan.slabs() >= 3);
+    const std::span parts(plan.parts());
+    check_disjoint(changed, plan, parts.first(plan.slabs()));
+    check_disjoint(changed, plan, parts.subspan(plan.slabs()));
+  }
+}
+
+TEST_CASE("a body that was numbered elsewhere comes to its neighbours' slab") {
+  FrictionProblem problem = long_box(1200, 5);
+  const auto swap_numbers = [&](int here, int there) {
+    for (auto* side : {&problem.dynamics.body_a, &problem.dynamics.body_b})
+      for (int& body : *side) body = body == here ? there : body == there ? here : body;
+  };
+  for (int here = 50; here < 450; here += 40) swap_numbers(here, here + 700);
+  SweepPlan plan;
+  plan.prepare(problem);
+  REQUIRE(plan.slabs() == 2);
+  for (int here = 50; here < 450; here += 40) {
+    CHECK(std::ranges::binary_search(plan.bodies(0), here + 700));
+    CHECK(std::ranges::binary_search(plan.bodies(1), here));
+  }
 }
 
 TEST_CASE("each member has neighbouring slabs with about as many contacts as the others") {

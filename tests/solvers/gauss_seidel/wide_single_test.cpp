@@ -99,7 +99,9 @@ TEST_CASE("single: errors fall as in double, for mass ratios up to a million") {
       CHECK(found == Approx(expected).epsilon(0.02));
       Impulses r;
       single.sweep.store(problem, r);
-      CHECK(contact_error(problem, r).natural_map_rms == Approx(found).epsilon(1e-9));
+      const double judged = contact_error(problem, r).natural_map_rms;
+      CHECK(judged <= found);
+      CHECK(found <= judged * (1.0 + 1.0 / 25.0));
     }
   }
 }
@@ -107,13 +109,16 @@ TEST_CASE("single: errors fall as in double, for mass ratios up to a million") {
 TEST_CASE("single: a rough look sees the error, now and then it is in double") {
   const FrictionProblem problem = grain_problem({.mass_ratio = 1e3, .seed = 6});
   Wide single(problem, true);
+  Impulses r;
   single.sweep.error();
   for (int look = 0; look < 10; ++look) {
     for (int k = 0; k < 20; ++k) single.sweep.sweep();
     const double rough = single.sweep.rough_error();
     CHECK_FALSE(single.sweep.is_storable());
-    CHECK(single.sweep.error() == Approx(rough).epsilon(1e-4));
+    CHECK(single.sweep.error() >= rough);
     CHECK(single.sweep.is_storable());
+    single.sweep.store(problem, r);
+    CHECK(contact_error(problem, r).natural_map_rms == Approx(rough).epsilon(1e-4));
   }
   int in_double = 0;
   for (int look = 0; look < 10; ++look) {
@@ -148,7 +153,24 @@ TEST_CASE("single: leaves by itself where its rounding would show") {
   CHECK(error < 1e-12 * velocity_scale(problem));
 }
 
-TEST_CASE("single: loaded impulses are stored as they were, the last sweep is in double") {
+TEST_CASE("single: with momentum rounding does not pile up") {
+  const FrictionProblem problem = grain_problem({.grains = 600, .contacts = 2000, .seed = 4});
+  // The least error that is seen before single precision is left.
+  const auto least = [&](double beta) {
+    Wide single(problem, true);
+    single.sweep.start_search();
+    double error = single.sweep.error(), seen = error;
+    for (int look = 0; look < 60 && single.sweep.is_single(); ++look) {
+      seen = error;
+      for (int k = 0; k < 60; ++k) single.sweep.sweep_along({k % 60 < 50 ? beta : 0.0});
+      error = single.sweep.error();
+    }
+    return seen;
+  };
+  CHECK(least(0.9) < 0.6 * least(0.0));
+}
+
+TEST_CASE("single: loaded impulses are stored as they were, swept ones on their cones") {
   const FrictionProblem problem = grain_problem({.seed = 2});
   Wide single(problem, true), exact(problem, false);
   const Impulses start = Impulses::Constant(problem.row_count(), 1.0 / 3e5);
@@ -157,17 +179,33 @@ TEST_CASE("single: loaded impulses are stored as they were, the last sweep is in
   single.sweep.store(problem, r);
   exact.sweep.store(problem, expected);
   CHECK(r == expected);
-  CHECK_FALSE(single.sweep.finish_in_double());  // not before a sweep
-  single.sweep.load(problem, start);
+  single.sweep.error();
+  single.sweep.store(problem, r);
+  CHECK(r == expected);
   for (int k = 0; k < 30; ++k) single.sweep.sweep();
   CHECK(single.sweep.error() > 0.0);
-  CHECK(single.sweep.finish_in_double());
-  CHECK_FALSE(single.sweep.is_single());
+  CHECK(single.sweep.is_single());
   single.sweep.store(problem, r);
-  const ContactError error = contact_error(problem, r);
-  CHECK(error.cone_violation <= 1e-15 * r.norm());
-  CHECK(single.sweep.error() == Approx(error.natural_map_rms).epsilon(1e-9));
-  single.sweep.load(problem, start);
+  CHECK(contact_error(problem, r).cone_violation <= 1e-15 * r.norm());
+}
+
+TEST_CASE("single: a start too good for it is kept, digit by digit") {
+  const FrictionProblem problem = grain_problem({.seed = 2});
+  const Solved solved =
+      from_rest(*make_gauss_seidel(), problem,
+                {.tolerance = 1e-12 * velocity_scale(problem), .max_iterations = 100000});
+  REQUIRE(solved.reason == StopReason::reached_tolerance);
+  Wide single(problem, true), exact(problem, false);
+  Impulses r, expected;
+  for (Wide* sweep : {&single, &exact}) sweep->sweep.load(problem, solved.impulses);
+  CHECK(single.sweep.is_single());
+  CHECK(single.sweep.error() == exact.sweep.error());
+  CHECK_FALSE(single.sweep.is_single());
+  for (Wide* sweep : {&single, &exact}) sweep->sweep.sweep();
+  single.sweep.store(problem, r);
+  exact.sweep.store(problem, expected);
+  CHECK(r == expected);
+  single.sweep.load(problem, Impulses::Zero(problem.row_count()));
   single.sweep.sweep();
   CHECK(single.sweep.is_single());  // single again after load()
 }
@@ -179,14 +217,15 @@ TEST_CASE("single: open contacts that rest change no bit") {
   for (int c = 0; c < problem.contact_count(); ++c)
     if (random.below(3) == 0)
       problem.dynamics.bias[problem.row_begin[c]] = random.uniform(0.0, 9.0);
-  for (const int threads : {1, 2}) {
+  for (const auto& [threads, is_conjugate] : {std::pair(1, true), {2, false}}) {
     Wide rests(problem, true, group_kernels(), threads), all(problem, true);
     all.sweep.allow_rests(false);
     for (Wide* sweep : {&rests, &all}) sweep->sweep.start_search();
     int resting = 0;
     for (int k = 0; k < 120; ++k) {
-      const double square = all.sweep.sweep_along(samples::varied_step(k));
-      REQUIRE(rests.sweep.sweep_along(samples::varied_step(k)) == square);
+      const SearchStep step = samples::varied_step(k, is_conjugate);
+      const double square = all.sweep.sweep_along(step);
+      REQUIRE(rests.sweep.sweep_along(step) == square);
       if (k % 12 != 5) continue;
       const double error = all.sweep.error();
       REQUIRE(rests.sweep.error() == error);

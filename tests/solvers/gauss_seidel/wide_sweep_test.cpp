@@ -17,10 +17,7 @@ using samples::Wide;
 
 namespace {
 
-/// Plain sweeps, searches along the change of the last sweeps, and momentum.
-constexpr SearchStep all_search_steps[] = {{0.0, 0.0},      {0.0, 1.0},     {0.7, 1.0},
-                                           {0.3, 1.0},      {0.0, 1.0},     {0.9, 1.0},
-                                           {0.5, 0.0, 0.5}, {0.6, 0.2, 0.3}};
+constexpr double all_betas[] = {0.0, 0.0, 0.7, 0.3, 0.0, 0.9, 0.5, 0.6};
 
 Impulses start_of(const FrictionProblem& problem) {
   return Impulses::Constant(problem.row_count(), 1e-5);
@@ -120,10 +117,10 @@ TEST_CASE("wide: the same bits on every instruction set, with any number of thre
         Wide wide(problem, single, *kernels, threads);
         REQUIRE(wide.fits);
         REQUIRE(wide.plan.slabs() >= 2);
-        wide.sweep.start_search();
         std::vector<double> numbers;
-        for (int k = 0; k < 20; ++k) {
-          numbers.push_back(wide.sweep.sweep_along(samples::varied_step(k)));
+        for (int k = 0; k < 40; ++k) {
+          if (k % 20 == 0) wide.sweep.start_search();
+          numbers.push_back(wide.sweep.sweep_along(samples::varied_step(k % 20, k >= 20)));
           if (k % 5 == 4) numbers.push_back(wide.sweep.rough_error());
           if (k % 10 == 9) numbers.push_back(wide.sweep.error());
         }
@@ -146,24 +143,27 @@ TEST_CASE("wide: the same bits on every instruction set, with any number of thre
 
 TEST_CASE("wide: a sweep along a search moves the whole iterate by the same step, then sweeps") {
   const FrictionProblem problem = grain_problem({.seed = 8});
-  Wide fast(problem), slow(problem);
-  Impulses x = start_of(problem), before = x, direction = 0.0 * x, found;
-  fast.sweep.load(problem, x);
-  fast.sweep.start_search();
-  for (const SearchStep step : all_search_steps) {
-    const double square = fast.sweep.sweep_along(step);
-    // The twin: the formula on the impulses, which determine the velocities.
-    const Impulses along = step.beta * direction + step.ahead * (x - before);
-    direction = along + step.gain * (x - before);
-    before = x + along;
-    slow.sweep.load(problem, before);
-    slow.sweep.sweep();
-    slow.sweep.store(problem, x);
-    CHECK(square == Approx(swept_square(problem, x - before, /*in_groups=*/true)).epsilon(1e-11));
-    fast.sweep.store(problem, found);
-    CHECK(difference(found, x) <= 1e-13);
+  for (const bool is_conjugate : {false, true}) {
+    Wide fast(problem), slow(problem);
+    Impulses x = start_of(problem), start = x, last = x, p = 0.0 * x, found;
+    fast.sweep.load(problem, x);
+    fast.sweep.start_search();
+    for (const double beta : all_betas) {
+      const double square = fast.sweep.sweep_along({beta, is_conjugate});
+      // The twin: the formulas on the impulses, which determine the velocities.
+      const Impulses move = beta * (is_conjugate ? p : x - last);
+      p = move + (x - start);
+      last = x;
+      start = x + move;
+      slow.sweep.load(problem, start);
+      slow.sweep.sweep();
+      slow.sweep.store(problem, x);
+      CHECK(square == Approx(swept_square(problem, x - start, /*in_groups=*/true)).epsilon(1e-11));
+      fast.sweep.store(problem, found);
+      CHECK(difference(found, x) <= 1e-13);
+    }
+    CHECK(x.norm() > 0.0);
   }
-  CHECK(x.norm() > 0.0);
 }
 
 TEST_CASE("wide: impulses that are loaded come back, what nothing moves is dropped") {
