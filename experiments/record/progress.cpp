@@ -2,18 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
-#include "platform/clock.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
-
-Progress::Progress(Style style)
-    : Progress(style, std::cerr, [watch = Stopwatch()] { return watch.seconds(); }) {}
-
-Progress::Progress(Style style, std::ostream& out, std::function<double()> clock)
-    : line_(style, out), clock_(std::move(clock)) {}
 
 void Progress::show(std::string_view label, double total, const StepRecord& record,
                     double rms_velocity) {
@@ -53,8 +45,7 @@ std::string Progress::line(double now) const {
   if (time > first_time_ && time < total_)
     text += "  " + duration_text(elapsed * (total_ - time) / (time - first_time_)) + " left";
   if (steps_ > 0) text += printed("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));
-  text += printed("  error %.1e m/s", record_.error_rms);
-  text += printed("  %.0f contacts", record_.contacts);
+  text += printed("  error %.1e m/s  %.0f contacts", record_.error_rms, record_.contacts);
   if (!std::isnan(velocity_)) text += printed("  %.1e m/s rms", velocity_);
   return text;
 }

@@ -44,7 +44,11 @@ class Admm final : public Solver {
       }
       alternate(r);
       w_.velocity(r, u_);
-      follow();
+      // Updates s, and the multiplier that goes with it. s follows the multiplier's own u_T, which
+      // changes gently: with the velocity that r gives the iteration may circle.
+      shift_multiplier(+1.0);
+      shift_.follow(w_, y_);
+      shift_multiplier(-1.0);
       if (iteration.count() >= next_look_) adapt(iteration.count());
       if (iteration.is_error_due()) iteration.evaluated(w_.error(r, u_), r);
     }
@@ -68,7 +72,6 @@ class Admm final : public Solver {
 
   /// One iteration of the formulas above; measures how much x and r differ and how far r moved.
   void alternate(Impulses& r) {
-    // The right-hand side P r - y - q - s n.
     for (int c = 0; c < w_.contact_count(); ++c) {
       Eigen::Vector3d b = w_.at(r, c) / sigma(c) - w_.at(y_, c) - w_.at(q_, c);
       b[0] -= shift_[c];
@@ -88,14 +91,6 @@ class Admm final : public Solver {
       split_ += (x - after).squaredNorm() * lambda_max * lambda_max;
       moved_ += (after - before).squaredNorm() / (sigma(c) * sigma(c));
     }
-  }
-
-  /// Updates s, and the multiplier that goes with it. s follows the multiplier's own u_T, which
-  /// changes gently: with the velocity that r gives the iteration may circle.
-  void follow() {
-    shift_multiplier(+1.0);
-    shift_.follow(w_, y_);
-    shift_multiplier(-1.0);
   }
 
   void shift_multiplier(double sign) {

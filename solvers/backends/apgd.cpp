@@ -102,7 +102,6 @@ class Apgd final : public Solver {
   /// Accepts the step: extrapolates, or restarts where the momentum went against the gradient.
   void accept(Impulses& r) {
     const Eigen::VectorXd& gone = (y_ = next_ - r);  // y is no longer needed
-    // Where the gradient step points against the way gone, the momentum has carried too far.
     const bool uphill = scaled_dot(moved_, gone) < 0.0;
     // Nesterov's sequence: theta+^2 = (1 - theta+) theta^2, beta = theta (1
     // - theta) / (theta^2 + theta+).

@@ -47,8 +47,8 @@ class Auto final : public Solver {
     LazySolver& newton = problem.has_dynamics && !is_scarce ? burst_ : proximal_;
 
     Course course(budget, std::move(start));
-    SweepStopRule slow(step, 0.25 * budget.max_iterations, budget);
-    course.run(sweeps_.prepared(problem), problem, budget.max_iterations, std::ref(slow));
+    course.run(sweeps_.prepared(problem), problem, budget.max_iterations,
+               sweep_stop_rule(step, 0.25 * budget.max_iterations, budget));
     int idle = 0;
     for (double steps = first_steps; !course.over() && idle < 2; steps *= 2.0) {
       const double before = course.error();
@@ -63,9 +63,8 @@ class Auto final : public Solver {
  private:
   /// Whether no contact closes without impulses: zero impulses are then a solution.
   static bool nothing_presses(const FrictionProblem& problem) {
-    Eigen::VectorXd made;
-    if (problem.has_dynamics) free_contact_velocity(problem, made);
-    const Eigen::VectorXd& q = problem.has_dynamics ? made : problem.delassus.q;
+    Eigen::VectorXd q;
+    free_contact_velocity(problem, q);
     for (int c = 0; c < problem.contact_count(); ++c)
       if (!(q[problem.row_begin[c]] >= 0.0)) return false;
     return true;

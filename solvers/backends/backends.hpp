@@ -2,10 +2,7 @@
 // One maker for each backend, with the source of its algorithm. solver_list.cpp gives them names.
 
 #include <array>
-#include <functional>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include "solvers/parts/contact_equation.hpp"
 #include "solvers/seam/solver.hpp"
@@ -40,25 +37,12 @@ std::unique_ptr<Solver> make_nesterov_pgs(bool returns_best = true);
 /// method for interactive contact force problems".
 std::unique_ptr<Solver> make_nncg();
 
-/// Budget::gives_up for sweeps, `step` of which cost as much as a Newton step. Sweeps end where two
-/// looks in a row promise that the rest of the way to budget.aim() costs more than the dozen Newton
-/// steps that mostly suffice. Before that they get the cost of 8 steps, or `at_most` if that is
-/// less, but no more than 500 sweeps where the error is far from the aim. `budget` outlives it.
-class SweepStopRule {
- public:
-  SweepStopRule(double step, double at_most, const Budget& budget);
-  bool operator()(int sweeps, double error);
-
- private:
-  double left(int sweeps, double error);
-
-  static constexpr double near = 30.0;  ///< in units of budget.aim()
-
-  const Budget& budget_;
-  int least_near_, least_far_, refusals_ = 0;
-  double most_;
-  std::vector<std::pair<int, double>> looks_;  ///< sweeps, error
-};
+/// Returns Budget::gives_up for sweeps, `step` of which cost as much as a Newton step. Sweeps end
+/// where two looks in a row promise that the rest of the way to budget.aim() costs more than the
+/// dozen Newton steps that mostly suffice. Before that they get the cost of 8 steps, or `at_most`
+/// if that is less, but no more than 500 sweeps where the error is far from the aim. `budget`
+/// outlives it.
+decltype(Budget::gives_up) sweep_stop_rule(double step, double at_most, const Budget& budget);
 
 /// The number of sweeps over bodies that cost as much as a Newton step. Measured on packings of 80
 /// to 8000 contacts.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "solvers/backends/backends.hpp"
 #include "solvers/gauss_seidel/any_sweep.hpp"
@@ -171,9 +172,7 @@ class SweptChange {
 /// are ever judged or returned.
 class GaussSeidel final : public Solver {
  public:
-  /// A null rule gives plain sweeps. With `returns_best` a solve that a limit ends returns the best
-  /// iterate that was looked at, else the last: a search may reach iterates far worse than earlier
-  /// ones.
+  /// A null rule gives plain sweeps. `returns_best`: see make_nesterov_pgs().
   GaussSeidel(std::unique_ptr<SearchRule> rule, bool returns_best)
       : rule_(std::move(rule)), returns_best_(returns_best) {}
 
@@ -205,7 +204,10 @@ class GaussSeidel final : public Solver {
     const double first = sweep_->error();
     looked(first);
     while (iteration.next()) {
-      square = sweep(square);
+      if (rule_)
+        square = sweep_->sweep_along(rule_->next(square));
+      else
+        sweep_->sweep();
       if (iteration.count() == 1) change.seen(0, square, first);
       const bool is_asked = rule_ && (change.promises(iteration.count(), square) || rule_->asks());
       if (!iteration.is_error_due() && !is_asked) continue;
@@ -233,12 +235,6 @@ class GaussSeidel final : public Solver {
     rule_->forget();
     sweep_->start_search();
   }
-  /// `square`: that of the last sweep. Returns that of this one; 0 without a search.
-  double sweep(double square) {
-    if (rule_) return sweep_->sweep_along(rule_->next(square));
-    sweep_->sweep();
-    return 0.0;
-  }
 
   /// The error [m/s] of an iterate that may be returned. In double an error small enough to stop is
   /// evaluated again from the impulses alone, as the judge will: thousands of updates have left
@@ -256,6 +252,23 @@ class GaussSeidel final : public Solver {
   AnySweep sweep_;
 };
 
+using Looks = std::vector<std::pair<int, double>>;  ///< sweeps, error
+
+/// Adds a look and returns the number of further sweeps from this error to the aim. Errors fall
+/// about like a power of the number of sweeps; the exponent, small in jams, comes from the later
+/// half of the sweeps.
+double sweeps_left(Looks& looks, int sweeps, double error, double aim) {
+  constexpr double unknown = 1e300;
+  if (sweeps == 0) return unknown;
+  looks.emplace_back(sweeps, error);
+  size_t k = looks.size() - 1;
+  while (k > 0 && 2 * looks[k].first > sweeps) --k;
+  const auto& [then, before] = looks[k];
+  if (2 * then > sweeps || !(before > error)) return unknown;
+  const double exponent = std::log(before / error) / std::log(1.0 * sweeps / then);
+  return sweeps * (std::pow(error / aim, 1.0 / exponent) - 1.0);
+}
+
 }  // namespace
 
 std::unique_ptr<Solver> make_gauss_seidel() {
@@ -272,30 +285,15 @@ std::unique_ptr<Solver> make_nncg() {
 
 double sweeps_of_step(int contacts) { return 1.3 * std::sqrt(contacts * std::sqrt(contacts)); }
 
-SweepStopRule::SweepStopRule(double step, double at_most, const Budget& budget)
-    : budget_(budget),
-      least_near_(static_cast<int>(std::min(8.0 * step, at_most))),
-      least_far_(std::min(500, least_near_)),
-      most_(12.0 * step) {}
-
-bool SweepStopRule::operator()(int sweeps, double error) {
-  // A single look may have caught the error while it rose.
-  refusals_ = left(sweeps, error) > most_ ? refusals_ + 1 : 0;
-  return refusals_ > 1 && sweeps >= (error < near * budget_.aim() ? least_near_ : least_far_);
-}
-
-/// The number of further sweeps from this error to the aim. Errors fall about like a power of the
-/// number of sweeps; the exponent, small in jams, comes from the later half of the sweeps.
-double SweepStopRule::left(int sweeps, double error) {
-  constexpr double unknown = 1e300;
-  if (sweeps == 0) return unknown;
-  looks_.emplace_back(sweeps, error);
-  size_t k = looks_.size() - 1;
-  while (k > 0 && 2 * looks_[k].first > sweeps) --k;
-  const auto& [then, before] = looks_[k];
-  if (2 * then > sweeps || !(before > error)) return unknown;
-  const double exponent = std::log(before / error) / std::log(1.0 * sweeps / then);
-  return sweeps * (std::pow(error / budget_.aim(), 1.0 / exponent) - 1.0);
+decltype(Budget::gives_up) sweep_stop_rule(double step, double at_most, const Budget& budget) {
+  const int least_near = static_cast<int>(std::min(8.0 * step, at_most)),
+            least_far = std::min(500, least_near);
+  return [=, &budget, looks = Looks(), refusals = 0](int sweeps, double error) mutable {
+    constexpr double near = 30.0;  // in units of budget.aim()
+    // A single look may have caught the error while it rose.
+    refusals = sweeps_left(looks, sweeps, error, budget.aim()) > 12.0 * step ? refusals + 1 : 0;
+    return refusals > 1 && sweeps >= (error < near * budget.aim() ? least_near : least_far);
+  };
 }
 
 }  // namespace ballast

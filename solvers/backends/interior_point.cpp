@@ -19,8 +19,8 @@ struct ConePoint {
   Eigen::VectorXd g;  ///< dual variable [m/s], which becomes u + s n
 };
 
-// The impulses that are judged and returned are P_K(r - rho g): open contacts have none there,
-// though the point's own r lies inside the cones.
+// The impulses that are judged and returned are P_K(r - rho g), the projection in the judge's
+// natural map: open contacts have none there, though the point's own r lies inside the cones.
 class InteriorPoint final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
@@ -42,8 +42,7 @@ class InteriorPoint final : public Solver {
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Course course(budget, std::move(start));
     approach(course, std::max(budget.tolerance, polish_from * velocity_scale()));
-    if (course.over()) return course.finish();
-    course.run(polisher_.prepared(problem), problem, budget.max_iterations);
+    course.run(polisher_, problem, budget.max_iterations);
     return course.finish();
   }
 
@@ -67,9 +66,10 @@ class InteriorPoint final : public Solver {
       const bool stepped = step();
       if (stepped) {
         w_.velocity(point_.r, u_);
-        round(r);
-        w_.velocity(r, rounded_u_);
-        course.offer(r, w_.error(r, rounded_u_));
+        for (int c = 0; c < w_.contact_count(); ++c)
+          w_.put(r, c, w_.at(point_.r, c) - w_.rho()[c] * w_.at(point_.g, c));
+        const double error = w_.project_and_evaluate(r, rounded_u_);
+        course.offer(r, error);
       }
       ++stalled_steps;
       if (course.error() <= 0.5 * halved) {
@@ -125,43 +125,20 @@ class InteriorPoint final : public Solver {
   //
   // first with c = -lambda o lambda (predictor), then with c = sigma nu 1 - lambda o lambda
   // - (F dx) o (F^-1 dz) (corrector), nu the mean of x.z. o and \ are the Jordan product and its
-  // inverse.
+  // inverse. False: by rounding the point is not inside, the matrix is singular, or the new point
+  // is not finite.
   bool step() {
-    if (!factor()) return false;
-    // A new s begins at the last iterate whose barrier was not yet below the distance that s had
-    // still to move: nearer to the cones' sides it could not follow. Both sides are energies: the
-    // sum of x.z, and that distance times the sum of mu r_N.
-    const double heads = sum([this](int c) { return to_cone(point_.r, c)[0]; });
-    if (!(product() < shift_.distance(w_, u_) * heads)) before_ = point_;
-    return advance();
-  }
-
-  /// Scales the cones at the point and factors. False: by rounding the point is not inside, or the
-  /// matrix is singular.
-  bool factor() {
     for (int c = 0; c < w_.contact_count(); ++c)
       if (!scale_contact(c)) return false;
-    return system_.factor();
-  }
-
-  /// The sum over the contacts that move.
-  template <typename Summand>
-  double sum(const Summand& summand) const {
-    double total = 0.0;
-    for (int c = 0; c < w_.contact_count(); ++c)
-      if (moves(c)) total += summand(c);
-    return total;
-  }
-
-  /// sum of x.z [J]: x.z = (F x).(F^-1 z) = |lambda|^2.
-  double product() const {
-    return sum([this](int c) { return scaling_[c].lambda.squaredNorm(); });
-  }
-
-  /// Moves the point by predictor and corrector. False: the new one is not finite.
-  bool advance() {
+    if (!system_.factor()) return false;
+    // A new s begins at the last iterate whose barrier was not yet below the distance that s had
+    // still to move: nearer to the cones' sides it could not follow. Both sides are energies: the
+    // sum of x.z = (F x).(F^-1 z) = |lambda|^2, and that distance times the sum of mu r_N.
+    const double heads = sum([this](int c) { return to_cone(point_.r, c)[0]; });
+    const double product = sum([this](int c) { return scaling_[c].lambda.squaredNorm(); });
+    if (!(product < shift_.distance(w_, u_) * heads)) before_ = point_;
     const double moving = sum([](int) { return 1.0; });
-    const double nu = moving > 0.0 ? product() / moving : 0.0;
+    const double nu = moving > 0.0 ? product / moving : 0.0;
     // Predictor: the step straight to the solution, and how much of it the cones allow.
     for (int c = 0; c < w_.contact_count(); ++c)
       target_[c] = -lorentz::product(scaling_[c].lambda, scaling_[c].lambda);
@@ -183,6 +160,15 @@ class InteriorPoint final : public Solver {
     return point_.r.allFinite() && point_.g.allFinite();
   }
 
+  /// The sum over the contacts that move.
+  template <typename Summand>
+  double sum(const Summand& summand) const {
+    double total = 0.0;
+    for (int c = 0; c < w_.contact_count(); ++c)
+      if (moves(c)) total += summand(c);
+    return total;
+  }
+
   bool moves(int c) const { return w_.rho()[c] > 0.0; }
   bool half_line(int c) const { return !(w_.friction(c) > 0.0); }
 
@@ -198,7 +184,7 @@ class InteriorPoint final : public Solver {
     return half_line(c) ? Vector(z[0], 0.0, 0.0) : Vector(z[0] / w_.friction(c), z[1], z[2]);
   }
 
-  /// The blocks P and P^-1 of one contact.
+  /// The blocks P and P^-1 of one contact. False: by rounding the point is not inside.
   bool scale_contact(int c) {
     Eigen::Matrix3d &p = system_.shift[c], &inverse_p = system_.sigma[c];
     // Rows that may not move have a huge P, which allows no dr.
@@ -266,14 +252,6 @@ class InteriorPoint final : public Solver {
         step = lorentz::longest_step(to_dual(point_.g, c), to_dual(dg_, c), step);
       }
     return std::min(1.0, part * step);
-  }
-
-  void round(Impulses& r) const {
-    // P_K(r - rho g), the projection in the judge's natural map.
-    r = point_.r;
-    for (int c = 0; c < w_.contact_count(); ++c)
-      w_.put(r, c, w_.at(point_.r, c) - w_.rho()[c] * w_.at(point_.g, c));
-    w_.project(r);
   }
 
   /// The error below which proximal Newton is faster, in units of the rms of q.

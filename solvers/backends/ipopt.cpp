@@ -20,7 +20,7 @@ using Ipopt::Number;
 
 // Polar coordinates y: the normal entry stays, the tangential ones are d with x_T = mu x_N d and
 // |d| <= 1. The cone is then a half-line times a disc, without the apex where no constraint has a
-// gradient. (Ipopt needs many times fewer steps, though 1/2 x.W x is no longer convex in y.)
+// gradient, though 1/2 x.W x is no longer convex in y.
 
 VectorXd from_polar(const ConeProgram& cones, const VectorXd& y) {
   VectorXd x = y;
@@ -214,14 +214,11 @@ class IpoptCone final : public Solver {
   /// Each of Ipopt's solves runs in a child process: Debian's Ipopt 3.11 with MUMPS does not
   /// survive a second one in the same process.
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    constexpr int patience = 12;
-    return cones_.solve(problem, std::move(start), budget, patience,
-                        [this](const ConeRequest& request, RoundAnswer& answer) {
-                          const auto run = [&](RoundAnswer& called) {
-                            return call(request, called);
-                          };
-                          answer_apart(request.left, run, answer);
-                        });
+    const auto convex = [this](const ConeRequest& request, RoundAnswer& answer) {
+      const auto run = [&](RoundAnswer& called) { return call(request, called); };
+      answer_apart(request.left, run, answer);
+    };
+    return cones_.solve(problem, std::move(start), budget, /*patience=*/12, convex);
   }
 
  private:

@@ -58,8 +58,7 @@ class NewtonStep {
         linear_[c] = linearise(equation_, w_.at(r_, c), proximal_velocity(r_, u_, c),
                                w_.friction(c), rho_factor_ * w_.rho()[c]);
       else  // no impulse moves it: dr = 0
-        linear_[c] = {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(),
-                      Eigen::Matrix3d::Zero()};
+        linear_[c] = {};
     }
     if (!system_.solve(w_, linear_, alpha_, dr_)) return false;
     // Backtracking along the step; u moves with r, as both are linear.

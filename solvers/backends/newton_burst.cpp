@@ -4,7 +4,6 @@
 
 #include "solvers/backends/backends.hpp"
 #include "solvers/parts/newton_system.hpp"
-#include "solvers/parts/regular_contact.hpp"
 #include "solvers/seam/iteration.hpp"
 
 namespace ballast {
@@ -17,7 +16,7 @@ struct NewtonIterate {
   Eigen::VectorXd u;
 };
 
-/// Newton's method on the regularised law of all contacts (regular_contact.hpp): every contact's
+/// Newton's method on the regularised law of all contacts (contact_equation.hpp): every contact's
 /// status is guessed from the iterate, and the equations that belong to the statuses are solved
 /// exactly.
 class RegularNewton {
@@ -130,8 +129,9 @@ class NewtonBurst final : public Solver {
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     Course course(budget, std::move(start));
     if (begins_with_sweeps_) {
-      SweepStopRule slow(sweeps_of_step(problem.contact_count()), budget.max_iterations, budget);
-      course.run(*sweeps_, problem, budget.max_iterations, std::ref(slow));
+      const double step = sweeps_of_step(problem.contact_count());
+      course.run(*sweeps_, problem, budget.max_iterations,
+                 sweep_stop_rule(step, budget.max_iterations, budget));
     } else {  // the start itself, without impulses that move nothing
       NewtonIterate at{course.best(), {}};
       const double error = newton_.settle(at);

@@ -56,9 +56,8 @@ class Nlopt final : public Solver {
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    constexpr int patience = 40;
     return cones_.solve(
-        problem, std::move(start), budget, patience,
+        problem, std::move(start), budget, /*patience=*/40,
         [this](const ConeRequest& request, RoundAnswer& answer) { run(request, answer); });
   }
 

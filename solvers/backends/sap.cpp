@@ -22,9 +22,12 @@ class Sap final : public Solver {
  public:
   void prepare(const FrictionProblem& problem) override {
     w_.prepare(problem);
-    is_stored_ = !problem.has_dynamics;
-    if (is_stored_) {
-      require_symmetric(problem.delassus.w);
+    if (!problem.has_dynamics) {
+      // The minimised energy has W for its kinetic part, so W must be symmetric.
+      const SparseRows &w = problem.delassus.w, transposed = w.transpose();
+      if ((w - transposed).norm() > 1e-9 * w.norm())
+        throw UnsupportedProblem(
+            "sap: the stored W is not symmetric: there is no energy to minimise");
       newton_.prepare(w_);
       linear_.resize(problem.contact_count());
       no_shift_in_r_.assign(problem.contact_count(), 0.0);
@@ -43,7 +46,7 @@ class Sap final : public Solver {
     gamma_ = std::move(start);
     iteration.evaluated(w_.project_and_evaluate(gamma_, true_u_), gamma_);
     centre_ = gamma_;
-    if (is_stored_)
+    if (!problem.has_dynamics)
       lambda_ = gamma_;
     else
       body_velocity(problem.dynamics, problem.row_begin, gamma_, v_);
@@ -75,25 +78,15 @@ class Sap final : public Solver {
     return w_.at(centre_, c) - u / epsilon(c);
   }
 
-  /// The minimised energy has W for its kinetic part, so W must be symmetric.
-  static void require_symmetric(const SparseRows& w) {
-    const SparseRows transposed = w.transpose();
-    if ((w - transposed).norm() > 1e-9 * w.norm())
-      throw UnsupportedProblem(
-          "sap: the stored W is not symmetric: there is no energy to minimise");
-  }
-
   /// Computes u and gamma at velocities v_; for a stored W, v_ is v_free + M^-1 H^T lambda_.
   void place(const FrictionProblem& problem) {
-    if (is_stored_)
+    if (!problem.has_dynamics)
       w_.velocity(lambda_, u_);
     else
       body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, u_);
     // gamma = P_K(r - u / epsilon): the impulse of a contact that gives way by epsilon.
-    for (int c = 0; c < w_.contact_count(); ++c)
-      w_.put(gamma_, c,
-             w_.rho()[c] > 0.0 ? project_cone(pressed(c, w_.at(u_, c)), w_.friction(c))
-                               : Eigen::Vector3d::Zero());
+    for (int c = 0; c < w_.contact_count(); ++c) w_.put(gamma_, c, pressed(c, w_.at(u_, c)));
+    w_.project(gamma_);
   }
 
   /// One step in v_, with u and gamma after it. Returns -gradient.dv [J], twice the gain that the
@@ -106,7 +99,7 @@ class Sap final : public Solver {
       if (w_.rho()[c] > 0.0)
         hessian_[c] = project_cone_jacobian(pressed(c, w_.at(u_, c)), w_.friction(c)) / epsilon(c);
     }
-    if (is_stored_) return newton_on_impulses(problem);
+    if (!problem.has_dynamics) return newton_on_impulses(problem);
     if (!bodies_.factor(hessian_)) return std::numeric_limits<double>::quiet_NaN();
     // The gradient M (v - v_free) - H^T gamma, and the Newton direction.
     contact_to_body_impulse(problem.dynamics, problem.row_begin, gamma_, gradient_);
@@ -154,7 +147,6 @@ class Sap final : public Solver {
         }
       return sum;
     };
-    // A bracket of the minimum: doubled until the slope is positive.
     double low = 0.0, high = 1.0, at_low = derivative(low), at_high = derivative(high);
     const double enough = 1e-8 * std::abs(at_low);
     while (at_high < 0.0 && high < 16.0) {
@@ -200,7 +192,6 @@ class Sap final : public Solver {
   SlipShift no_shift_;
   SparseColumns mass_;
   std::vector<Eigen::Matrix3d> hessian_;
-  bool is_stored_ = false;
   NewtonSystem newton_;  ///< of a stored W
   std::vector<ContactLinearisation> linear_;
   std::vector<double> no_shift_in_r_;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <siconos/numerics/FrictionContactProblem.h>
@@ -36,22 +37,13 @@ struct SiconosRecipe {
 /// = 0: no impulse there.
 class BlockProblem {
  public:
-  void take(const ReducedProblem& moving) {
-    by_blocks_ = dense_problem_ = nullptr;
-    block_.clear();
-    block_end_.clear();
-    values_.clear();
-    const int contacts = moving.contact_count();
-    contacts_ = contacts;
-    row_.clear();
-    for (int k = 0; k < contacts; ++k)
+  explicit BlockProblem(const ReducedProblem& moving)
+      : contacts_(moving.contact_count()), friction_(moving.friction) {
+    for (int k = 0; k < contacts_; ++k)
       for (int i = 0; i < moving.rows(k); ++i) row_.push_back(3 * k + i);
-    friction_ = moving.friction;
-    q_.setZero(3 * contacts);
+    q_.setZero(3 * contacts_);
     q_(row_) = moving.q;
-    block_begin_.assign(1, 0);
-    block_column_.clear();
-    for (int k = 0; k < contacts; ++k) add_block_row(moving, k);
+    for (int k = 0; k < contacts_; ++k) add_block_row(moving, k);
   }
 
   /// Siconos' own structures over our storage, each made once. Nothing is ever freed: only
@@ -113,11 +105,11 @@ class BlockProblem {
     block_begin_.push_back(block_column_.size());
   }
 
-  int contacts_ = 0;
+  int contacts_;
   std::vector<int> row_;  ///< where each row of ReducedProblem went
   std::vector<double> friction_;
   Eigen::VectorXd q_;
-  std::vector<std::size_t> block_begin_, block_column_;
+  std::vector<std::size_t> block_begin_{0}, block_column_;
   std::vector<Eigen::Matrix3d> values_;
   std::vector<double*> block_;
   std::vector<unsigned> block_end_;
@@ -130,22 +122,22 @@ class Siconos final : public Solver {
   explicit Siconos(const SiconosRecipe& recipe) : recipe_(recipe) {}
 
   /// Converting W is start-up, as in a program of Siconos' own, and is left to solve().
-  void prepare(const FrictionProblem&) override { is_taken_ = false; }
+  void prepare(const FrictionProblem&) override { blocks_.reset(); }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
     const Stopwatch watch;
-    if (!is_taken_) {
+    if (!blocks_) {
       moving_.take(problem);
-      blocks_.take(moving_);
-      is_taken_ = true;
+      blocks_.emplace(moving_);
     }
     const double conversion = watch.seconds();
     double tolerance = first_tolerance(budget);
-    int chunk = first_chunk();
-    is_dense_ = recipe_.factorises && blocks_.contacts() <= recipe_.most_dense;
-    constexpr int patience = 3;
+    // Iterations of the first round: some seconds' worth, so that the clock is checked.
+    const double visits = recipe_.contact_visits / std::max(1, blocks_->contacts());
+    int chunk = static_cast<int>(std::clamp(visits, 100.0, 1e6));
+    is_dense_ = recipe_.factorises && blocks_->contacts() <= recipe_.most_dense;
     Solved solved = solve_in_rounds(
-        problem, moving_, std::move(start), budget, patience,
+        problem, moving_, std::move(start), budget, /*patience=*/3,
         [&](const RoundRequest& request, RoundAnswer& answer) {
           const int most = is_dense_ ? recipe_.most_dense_iterations : chunk;
           const int limit = std::min({chunk, most, request.left.max_iterations});
@@ -172,43 +164,36 @@ class Siconos final : public Solver {
   double first_tolerance(const Budget& budget) const {
     // Slightly below the margin of reached(): an answer within that would cost a whole round more.
     if (budget.fclib) return budget.fclib->tolerance() * (1.0 - 2.0 * stop_margin);
-    const double contacts = std::max(1.0, static_cast<double>(blocks_.contacts()));
-    const double q = blocks_.q().norm();
+    const double contacts = std::max(1.0, static_cast<double>(blocks_->contacts()));
+    const double q = blocks_->q().norm();
     // Ours is rms over contacts: times the root of their number it is a norm like Siconos'.
     return budget.tolerance * std::sqrt(contacts) / (q > 0.0 ? q : 1.0);
   }
 
-  /// Iterations of the first round: some seconds' worth, so that the clock is checked.
-  int first_chunk() const {
-    const double visits = recipe_.contact_visits / std::max(1, blocks_.contacts());
-    return static_cast<int>(std::clamp(visits, 100.0, 1e6));
-  }
-
-  /// One call of Siconos from the best iterate. The clock runs in fc3d_driver alone, as in a
-  /// program of Siconos' own.
+  /// One call of Siconos from the best iterate. The clock runs in fc3d_driver alone.
   void call(const RoundRequest& request, double tolerance, int limit, RoundAnswer& answer) {
     numerics_set_verbose(0);
-    FrictionContactProblem* problem = blocks_.siconos(is_dense_);
+    FrictionContactProblem* problem = blocks_->siconos(is_dense_);
     // The columns of a sparse W are kept in the matrix: made once, not timed.
     if (recipe_.factorises && !is_dense_) NM_csc(problem->M);
     SolverOptions* options = solver_options_create(recipe_.solver);
     recipe_.adjust(*options);
     options->dparam[SICONOS_DPARAM_TOL] = tolerance;
     options->iparam[SICONOS_IPARAM_MAX_ITER] = limit;
-    Eigen::VectorXd r = blocks_.pad(request.best), u = blocks_.q();
+    Eigen::VectorXd r = blocks_->pad(request.best), u = blocks_->q();
     NM_gemv(1.0, problem->M, r.data(), 1.0, u.data());
     const Stopwatch watch;
     fc3d_driver(problem, r.data(), u.data(), options);
     answer.seconds = watch.seconds();
     answer.iterations = options->iparam[SICONOS_IPARAM_ITER_DONE];
     solver_options_delete(options);
-    answer.x = blocks_.unpad(r);
+    answer.x = blocks_->unpad(r);
   }
 
   const SiconosRecipe& recipe_;
   ReducedProblem moving_;
-  BlockProblem blocks_;
-  bool is_taken_ = false, is_dense_ = false;
+  std::optional<BlockProblem> blocks_;  ///< of moving_; nothing before the first solve()
+  bool is_dense_ = false;
 };
 
 void use_hybrid_newton(SolverOptions& options) {

@@ -14,11 +14,7 @@ class AnySweep {
  public:
   /// Sets the team whose members share a sweep; null: the caller alone. The results have the same
   /// bits whatever the number of members.
-  void use_team(WorkerTeam* team) {
-    plan_.use_team(team);
-    scalar_.use_team(team);
-    wide_.use_team(team);
-  }
+  void use_team(WorkerTeam* team) { plan_.use_team(team); }
 
   /// Chooses the sweep and makes everything that does not depend on the impulses: records, masses,
   /// 1/rho. A problem that has both forms is swept over its bodies.

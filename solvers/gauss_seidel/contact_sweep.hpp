@@ -1,6 +1,5 @@
 #pragma once
-// The interface of all Gauss-Seidel sweeps: over bodies with groups of contacts side by side
-// (WideSweep), over bodies contact after contact (ScalarSweep), or over a stored W (DelassusSweep).
+// The interface of all Gauss-Seidel sweeps (any_sweep.hpp).
 
 #include "problems/algebra/friction_problem.hpp"
 #include "solvers/gauss_seidel/group_kernels.hpp"

@@ -94,8 +94,9 @@ struct alignas(64) GroupFrame {
   int contact[group_lanes];        ///< its number in the problem; -1: none
 };
 
-template <typename Number>
-struct alignas(8 * sizeof(Number)) BodyRow {
+template <typename Number_>
+struct alignas(8 * sizeof(Number_)) BodyRow {
+  using Number = Number_;
   Number w[8];
 };
 
@@ -145,59 +146,52 @@ struct GroupLoops {
   using Number = typename Group::Number;
   using Impulses = GroupImpulses<Number, Group::rows>;
   using Search = GroupSearch<Number, Group::rows>;
-  using Body = BodyRow<Number>;
   using Run = GroupRun<Group>;
 
   /// Solves every contact once. The two runs share no body; they may be swept side by side, which
   /// hides one's divisions behind the other's and gives the same bits. With a `step` each impulse
   /// first takes the step (the caller has moved the bodies by it), and `squares` receives each
   /// run's sum of |change|^2 over its contacts.
-  void (*sweep)(const Run (&runs)[2], const SearchStep* step, Body* bodies, double (&squares)[2]);
+  void (*sweep)(const Run (&runs)[2], const SearchStep* step, BodyRow<Number>* bodies,
+                double (&squares)[2]);
   /// Applies all impulses once to their bodies, which are in double.
   void (*push)(const Group* groups, const Impulses* impulses, int count, BodyRow<double>* bodies);
   /// The sum over contacts of the judge's scaled natural map squared [m^2/s^2], in double. `out`
   /// may be null.
   double (*error)(const Group* groups, const Impulses* impulses, const GroupFrame* frames,
                   int count, const BodyRow<double>* bodies, GroupVelocities<Group::rows>* out);
+  /// The same sum in the groups' own precision, with the velocities that a sweep sees.
+  double (*rough_error)(const Group* groups, const Impulses* impulses, const GroupFrame* frames,
+                        int count, const BodyRow<Number>* bodies,
+                        GroupVelocities<Group::rows>* out);
 };
 
 /// Of groups in double.
 template <typename Group>
 struct ExactLoops : GroupLoops<Group> {
-  /// Turns the rows as given, bias and mu in the frames, into the group's coordinates.
-  void (*make_principal)(Group* groups, GroupFrame* frames, int count);
+  /// Turns the rows as given, bias and mu in the frame, into the group's coordinates.
+  void (*make_principal)(Group& group, GroupFrame& frame);
 };
-
-/// Of groups in single precision.
-template <typename Group>
-struct SingleLoops : GroupLoops<Group> {
-  /// The same sum in single precision, with the velocities that a sweep sees.
-  double (*rough_error)(const Group* groups, const GroupImpulses<float, Group::rows>* impulses,
-                        const GroupFrame* frames, int count, const BodyRow<float>* bodies,
-                        GroupVelocities<Group::rows>* out);
-};
-
-/// Moves `count` consecutive bodies by the step of the search.
-template <typename Number>
-using MoveBodies = void (*)(int count, SearchStep step, BodyRow<Number>* w, BodyRow<Number>* before,
-                            BodyRow<Number>* direction);
 
 /// All loops for one number type.
 template <template <typename> class Loops, typename Number>
 struct KernelsOf : Kinds<Loops, Number> {
-  MoveBodies<Number> move_bodies;
+  /// Moves `count` consecutive bodies by the step of the search.
+  void (*move_bodies)(int count, SearchStep step, BodyRow<Number>* w, BodyRow<Number>* before,
+                      BodyRow<Number>* direction);
 };
 
 struct GroupKernels {
   const char* instruction_set;
   KernelsOf<ExactLoops, double> exact;
-  KernelsOf<SingleLoops, float> single;
+  KernelsOf<GroupLoops, float> single;
 };
 
-/// The kernels of the best instruction set that this processor has.
-const GroupKernels& group_kernels();
+// SSE2's serve any other processor too, which has no other ones.
+extern const GroupKernels sse2_group_kernels, avx2_group_kernels, avx512_group_kernels;
+
 /// The kernels of all instruction sets that this processor has, the best first.
-const std::vector<const GroupKernels*>& all_group_kernels();
+std::vector<const GroupKernels*> all_group_kernels();
 
 /// Returns the slip root x = 1 + lambda of one contact in a group's coordinates from the stick
 /// solution (y, t1, t2) outside the cone; 0: no tangential impulse. Uses a proven bracket, for the

@@ -3,7 +3,6 @@
 
 namespace ballast {
 
-extern const GroupKernels avx2_group_kernels;
 const GroupKernels avx2_group_kernels = kernels_of<32, 4, 2>("avx2");
 
 }  // namespace ballast

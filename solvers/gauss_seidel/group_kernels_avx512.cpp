@@ -3,7 +3,6 @@
 
 namespace ballast {
 
-extern const GroupKernels avx512_group_kernels;
 const GroupKernels avx512_group_kernels = kernels_of<64, 2, 1>("avx512");
 
 }  // namespace ballast

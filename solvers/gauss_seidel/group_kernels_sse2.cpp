@@ -3,7 +3,6 @@
 
 namespace ballast {
 
-extern const GroupKernels sse2_group_kernels;
 const GroupKernels sse2_group_kernels = kernels_of<16, 2, 2>("sse2");
 
 }  // namespace ballast

@@ -1,6 +1,6 @@
 #pragma once
-// The sweeps over groups (group_kernels.hpp) for one instruction set: V, its lanes. Included by the
-// sources group_kernels_*.cpp alone.
+// The sweeps over groups (group_kernels.hpp) for one instruction set: V, its lanes. Only
+// kernel_table.hpp includes this.
 //
 // One vector's solution is a chain of divisions that leaves most of a processor idle. So the
 // vectors of a group are solved in step, and where registers are as wide as a group, a group of
@@ -72,17 +72,12 @@ struct LaneSums {
 
 /// Groups in single precision have the offsets of such bodies. Those in double stand twice as far.
 template <typename Number, typename Group>
-constexpr int offset_scale = std::is_same_v<Number, typename Group::Number> ? 1 : 2;
+constexpr int offset_scale = sizeof(Number) / sizeof(typename Group::Number);
 
 /// L^T v of the wall that a group's contacts are on.
-template <typename Group, typename Number>
-BALLAST_INLINE auto& wall_velocity(const Group& k, BodyRow<Number>* bodies) {
-  constexpr int scale = offset_scale<Number, Group>;
-  return reinterpret_cast<BodyRow<Number>*>(at_offset(bodies, scale * k.wall_body))->w[0];
-}
-template <typename Group, typename Number>
-BALLAST_INLINE auto wall_velocity(const Group& k, const BodyRow<Number>* bodies) {
-  return wall_velocity(k, const_cast<BodyRow<Number>*>(bodies));
+template <typename Group, typename Body>
+BALLAST_INLINE auto& wall_velocity(const Group& k, Body* bodies) {
+  return at_offset(bodies, offset_scale<typename Body::Number, Group> * k.wall_body)->w[0];
 }
 
 /// GroupLoops::push
@@ -155,22 +150,12 @@ BALLAST_INLINE void open_or_stick(LawLanes<V>& k) {
 /// The roots of the lanes that the fixed number of steps did not serve: one by one.
 template <typename V>
 [[gnu::noinline]] V roots_one_by_one(typename V::Mask lanes, const LawLanes<V>& k, V x) {
-  using Number = typename V::Number;
-  alignas(64) Number s2[V::width], c1[V::width], c2[V::width], mu[V::width], y[V::width],
-      t1[V::width], t2[V::width], root[V::width], chosen[V::width];
-  k.s2.store(s2);
-  k.c1.store(c1);
-  k.c2.store(c2);
-  k.mu.store(mu);
-  k.y.store(y);
-  k.t1.store(t1);
-  k.t2.store(t2);
-  x.store(root);
-  keep(lanes, V::all(1.0)).store(chosen);
+  const V chosen = keep(lanes, V::all(1.0));
   for (int i = 0; i < V::width; ++i)
-    if (chosen[i] != 0)
-      root[i] = static_cast<Number>(slip_root(s2[i], c1[i], c2[i], mu[i], y[i], t1[i], t2[i]));
-  return V::load(root);
+    if (chosen.x[i] != 0)
+      x.x[i] = static_cast<typename V::Number>(
+          slip_root(k.s2.x[i], k.c1.x[i], k.c2.x[i], k.mu.x[i], k.y.x[i], k.t1.x[i], k.t2.x[i]));
+  return x;
 }
 
 /// The slip branch for K vectors in step, so that one's divisions hide the other's. With x = 1 +

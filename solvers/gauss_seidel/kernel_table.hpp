@@ -134,10 +134,9 @@ BALLAST_INLINE void make_principal_lanes(Group& k, GroupFrame& f, int lane) {
 
 /// ExactLoops::make_principal
 template <typename V, typename Group>
-void make_principal_loop(Group* groups, GroupFrame* frames, int count) {
-  for (int g = 0; g < count; ++g)
-    for (int lane = 0; lane < group_lanes; lane += V::width)
-      make_principal_lanes<V>(groups[g], frames[g], lane);
+void make_principal_loop(Group& group, GroupFrame& frame) {
+  for (int lane = 0; lane < group_lanes; lane += V::width)
+    make_principal_lanes<V>(group, frame, lane);
 }
 
 /// Returns the square of the judge's scaled natural map |r - P_K(r - rho (u + mu |u_T| n))| / rho
@@ -197,7 +196,7 @@ BALLAST_INLINE void contact_velocities(const Group& k, const GroupFrame& f, int 
     moved[0] = moved[0] + wall_velocity(k, bodies) * V::load(k.wall + lane);
 }
 
-/// GroupLoops::error, SingleLoops::rough_error
+/// GroupLoops::error, GroupLoops::rough_error
 template <typename V, typename Group>
 double error_loop(const Group* groups, const typename GroupLoops<Group>::Impulses* impulses,
                   const GroupFrame* frames, int count, const BodyRow<typename V::Number>* bodies,
@@ -224,14 +223,12 @@ double error_loop(const Group* groups, const typename GroupLoops<Group>::Impulse
   return sums.total();
 }
 
-/// `D`, `S`: registers of doubles and of singles; so many of each are solved side by side.
+/// `D`, `V`: registers of doubles and of the group's numbers, K of which are solved side by side.
+template <typename V, typename D, int K, typename Group>
+constexpr GroupLoops<Group> group_loops{sweep_loop<V, K, Group>, push_loop<D, Group>,
+                                        error_loop<D, Group>, error_loop<V, Group>};
 template <typename D, int K, typename Group>
-constexpr ExactLoops<Group> exact_loops{
-    {sweep_loop<D, K, Group>, push_loop<D, Group>, error_loop<D, Group>},
-    make_principal_loop<D, Group>};
-template <typename S, typename D, int K, typename Group>
-constexpr SingleLoops<Group> single_loops{
-    {sweep_loop<S, K, Group>, push_loop<D, Group>, error_loop<D, Group>}, error_loop<S, Group>};
+constexpr ExactLoops<Group> exact_loops{group_loops<D, D, K, Group>, make_principal_loop<D, Group>};
 
 /// The kernels for registers of `Bytes` bytes that solve so many vectors of each type side by side.
 template <int Bytes, int DoubleVectors, int SingleVectors>
@@ -243,8 +240,8 @@ constexpr GroupKernels kernels_of(const char* instruction_set) {
           {{exact_loops<D, d, FrictionGroup<double>>, exact_loops<D, d, OneRowGroup<double>>,
             exact_loops<D, d, WallGroup<double>>},
            move_bodies<D>},
-          {{single_loops<S, D, s, FrictionGroup<float>>, single_loops<S, D, s, OneRowGroup<float>>,
-            single_loops<S, D, s, WallGroup<float>>},
+          {{group_loops<S, D, s, FrictionGroup<float>>, group_loops<S, D, s, OneRowGroup<float>>,
+            group_loops<S, D, s, WallGroup<float>>},
            move_bodies<S>}};
 }
 

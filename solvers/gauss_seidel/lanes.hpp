@@ -6,6 +6,8 @@
 // of 16 bytes are the compiler's own vectors, for SSE2 and any other processor; those of 32 bytes
 // need AVX2, those of 64 bytes AVX-512.
 
+#include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #if defined(__x86_64__)
@@ -32,30 +34,16 @@ struct RegisterOf {
 template <typename Number, int Bytes>
 using Register = typename RegisterOf<Number, Bytes>::type;
 
-/// The result of comparing vectors: all bits of a lane or none; with AVX-512 one bit for each lane.
-template <typename Number, int Bytes>
-struct MaskOf {
-  using type = decltype(Register<Number, Bytes>{} < Register<Number, Bytes>{});
-};
-#if defined(__x86_64__)
-template <>
-struct MaskOf<double, 64> {
-  using type = __mmask8;
-};
-template <>
-struct MaskOf<float, 64> {
-  using type = __mmask16;
-};
-#endif
-
 /// A register of `Bytes` bytes.
 template <typename Number_, int Bytes>
 struct Lanes {
   using Number = Number_;
   using Raw = Register<Number, Bytes>;
-  using Mask = typename MaskOf<Number, Bytes>::type;
   static constexpr int bytes = Bytes, width = Bytes / sizeof(Number);
   static constexpr bool is_double = sizeof(Number) == 8;
+  /// Of a comparison: all bits of a lane or none; with AVX-512 one bit for each lane.
+  using Bits = std::conditional_t<is_double, std::uint8_t, std::uint16_t>;
+  using Mask = std::conditional_t<Bytes == 64, Bits, decltype(Raw{} < Raw{})>;
 
   Raw x;
 
@@ -194,11 +182,10 @@ BALLAST_INLINE bool any(__mmask16 mask) { return mask != 0; }
 #endif
 
 /// The row of a body at `offset` bytes from `base`: byte offsets save the loop its shifts.
-BALLAST_INLINE const char* at_offset(const void* base, int offset) {
-  return static_cast<const char*>(base) + static_cast<unsigned>(offset);
-}
-BALLAST_INLINE char* at_offset(void* base, int offset) {
-  return static_cast<char*>(base) + static_cast<unsigned>(offset);
+template <typename Row>
+BALLAST_INLINE Row* at_offset(Row* base, int offset) {
+  using Byte = std::conditional_t<std::is_const_v<Row>, const char, char>;
+  return reinterpret_cast<Row*>(reinterpret_cast<Byte*>(base) + static_cast<unsigned>(offset));
 }
 
 // The functions below move the bodies of several contacts from rows to lanes and back. They load

@@ -1,6 +1,7 @@
 #include "solvers/gauss_seidel/scalar_sweep.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "platform/for_each_cpu.hpp"
 #include "problems/algebra/contact_error.hpp"
@@ -14,8 +15,7 @@ using Record = ScalarSweep::Record;
 using Impulse = ScalarSweep::Impulse;
 using Velocity = ScalarSweep::Velocity;
 
-// GCC's vector extensions: the same element-wise operations in the same order on every instruction
-// set, hence the same bits (-ffp-contract=off keeps multiplications and additions apart).
+// GCC's vector extensions: the same bits on every instruction set, as in lanes.hpp.
 using Vector8 = double __attribute__((vector_size(64)));
 using Vector4 = double __attribute__((vector_size(32)));
 
@@ -209,36 +209,13 @@ double to_principal(Record& k, double mu, TangentTurn& turn) {
 
 }  // namespace
 
-template <typename Task>
-void ScalarSweep::for_parts_in_phases(const Task& task) {
-  const int slabs = plan_.slabs();
-  plan_.for_slabs([&](int begin, int end) {
-    for (int k = begin; k < end; ++k) task(plan_.parts()[k], k);
-  });
-  plan_.for_slabs([&](int begin, int end) {
-    for (int k = begin; k < std::min(end, slabs - 1); ++k)
-      task(plan_.parts()[slabs + k], slabs + k);
-  });
-}
-
 void ScalarSweep::prepare(const FrictionProblem& problem) {
   const std::vector<int>& order = plan_.contacts();
   place_.resize(order.size());
   for (size_t i = 0; i < order.size(); ++i) place_[order[i]] = static_cast<int>(i);
   part_error_.resize(plan_.parts().size());
-  prepare_bodies(problem.dynamics);
-  records_.assign(order.size(), {});
-  impulses_.resize(order.size());
-  turn_.resize(order.size());
-  lambda_max_.resize(order.size());
-  for_parts_in_phases([&](const SweepPlan::Part& part, int number) {
-    for (int i = part.begin; i < part.end; ++i)
-      prepare_record(problem, i, problem.dynamics.body_count() + number);
-  });
-}
-
-/// Factors the masses and computes the free velocities in the variables w = L^T v.
-void ScalarSweep::prepare_bodies(const DynamicsForm& dynamics) {
+  // The masses' factors, and the free velocities in the variables w = L^T v.
+  const DynamicsForm& dynamics = problem.dynamics;
   factor_masses(dynamics, roots_);
   free_velocity_.assign(dynamics.body_count() + part_error_.size(), {});
   for (int b = 0; b < dynamics.body_count(); ++b) {
@@ -247,6 +224,14 @@ void ScalarSweep::prepare_bodies(const DynamicsForm& dynamics) {
     roots_[b].multiply_upper(dynamics.mass.data() + dynamics.mass_begin[b], w);
   }
   velocity_ = free_velocity_;
+  records_.assign(order.size(), {});
+  impulses_.resize(order.size());
+  turn_.resize(order.size());
+  lambda_max_.resize(order.size());
+  plan_.for_parts_in_phases([&](const SweepPlan::Part& part, int number) {
+    for (int i = part.begin; i < part.end; ++i)
+      prepare_record(problem, i, dynamics.body_count() + number);
+  });
 }
 
 /// Makes rows and bias of one contact, then turns them into principal coordinates.
@@ -296,7 +281,7 @@ void ScalarSweep::store(const FrictionProblem& problem, Impulses& r) const {
 }
 
 void ScalarSweep::sweep() {
-  for_parts_in_phases([this](const SweepPlan::Part& part, int) {
+  plan_.for_parts_in_phases([this](const SweepPlan::Part& part, int) {
     sweep_records(records_.data() + part.begin, impulses_.data() + part.begin,
                   part.friction_end - part.begin, part.end - part.begin, velocity_.data());
   });
@@ -313,19 +298,17 @@ void ScalarSweep::start_search() {
 double ScalarSweep::sweep_along(SearchStep step) {
   move_bodies(step, velocity_.data(), velocity_before_.data(), velocity_direction_.data(),
               static_cast<int>(velocity_.size()));
-  for_parts_in_phases([&](const SweepPlan::Part& part, int number) {
+  plan_.for_parts_in_phases([&](const SweepPlan::Part& part, int number) {
     part_square_[number] = sweep_records_along(
         step, records_.data() + part.begin, impulses_.data() + part.begin,
         impulses_before_.data() + part.begin, impulse_direction_.data() + part.begin,
         part.friction_end - part.begin, part.end - part.begin, velocity_.data());
   });
-  double square = 0.0;
-  for (const double part : part_square_) square += part;
-  return square;
+  return std::accumulate(part_square_.begin(), part_square_.end(), 0.0);
 }
 
 double ScalarSweep::error() {
-  for_parts_in_phases([this](const SweepPlan::Part& part, int number) {
+  plan_.for_parts_in_phases([this](const SweepPlan::Part& part, int number) {
     RootMeanSquare mean;
     // Leave out contacts that nothing moves, as the judge does.
     for (int k = part.begin; k < part.end; ++k)

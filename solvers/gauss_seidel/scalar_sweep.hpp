@@ -10,7 +10,6 @@
 
 #include <vector>
 
-#include "platform/worker_team.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "problems/algebra/mass_root.hpp"
@@ -22,11 +21,9 @@ namespace ballast {
 
 class ScalarSweep final : public ContactSweep {
  public:
-  /// The plan must outlive the sweep.
+  /// The plan, whose team shares the sweep's work, must outlive it.
   explicit ScalarSweep(const SweepPlan& plan) : plan_(plan) {}
 
-  /// Shares sweeps, error evaluations and preparation; null: one thread.
-  void use_team(WorkerTeam* team) { team_ = team; }
   /// The plan must have been prepared for `problem`, which has the dynamics form.
   void prepare(const FrictionProblem& problem);
 
@@ -58,15 +55,9 @@ class ScalarSweep final : public ContactSweep {
   };
 
  private:
-  /// Calls task(part, its number) for the slabs' interiors, all at the same time, then for the
-  /// interfaces.
-  template <typename Task>
-  void for_parts_in_phases(const Task& task);
-  void prepare_bodies(const DynamicsForm& dynamics);
   void prepare_record(const FrictionProblem& problem, int place, int nowhere);
 
   const SweepPlan& plan_;
-  WorkerTeam* team_ = nullptr;
   std::vector<MassRoot> roots_;
   /// L^T v_free. Each part of the plan has one more entry that never moves, so that threads share
   /// no cache line.

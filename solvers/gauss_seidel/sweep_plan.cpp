@@ -198,12 +198,6 @@ void SweepPlan::find_openings(const FrictionProblem& problem, int begin, int end
   }
 }
 
-/// 0: it closes; else the octave of its opening, the higher the wider.
-int SweepPlan::level_of(double opening) const {
-  if (!(opening > 0.0)) return 0;
-  return std::max(0, gap_octaves + std::ilogb(opening / widest_));
-}
-
 void SweepPlan::order(const FrictionProblem& problem) {
   const DynamicsForm& dynamics = problem.dynamics;
   const int contacts = problem.contact_count(), parts = 2 * slabs_ - 1;
@@ -213,7 +207,7 @@ void SweepPlan::order(const FrictionProblem& problem) {
   // A key for every contact: contacts of a key keep their order.
   rank_.assign(dynamics.body_count() + 1, 0);
   key_.resize(contacts);
-  widest_ = contacts > 0 ? *std::ranges::max_element(opening_) : 0.0;
+  const double widest = contacts > 0 ? *std::ranges::max_element(opening_) : 0.0;
   for (int c = 0; c < contacts; ++c) {
     const int a = dynamics.body_a[c], b = dynamics.body_b[c];
     const int first = a >= 0 ? a : b, second = b >= 0 ? b : a;
@@ -225,7 +219,9 @@ void SweepPlan::order(const FrictionProblem& problem) {
       // wait for each other's velocities.
       turn = rank_[first]++ % turns;
     }
-    const int level = level_of(opening_[c]);
+    // 0: it closes; else the octave of its opening, the higher the wider.
+    int level = 0;
+    if (opening_[c] > 0.0) level = std::max(0, gap_octaves + std::ilogb(opening_[c] / widest));
     key_[c] = ((part * 2 + (problem.contact_rows(c) == 1)) * levels + level) * turns + turn;
   }
   sort_by_key(key_, parts * 2 * keys, count_, contacts_);

@@ -15,6 +15,7 @@
 // Contacts whose gap would take long to close come last, the widest at the end. Most of them stay
 // open: side by side they can be passed over together (WideSweep).
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -33,8 +34,9 @@ class SweepPlan {
     int begin, friction_end, end;
   };
 
-  /// Shares some of the work; null: the caller alone.
+  /// Sets the team that shares the plan's work and that of its sweeps; null: the caller alone.
   void use_team(WorkerTeam* team) { team_ = team; }
+  WorkerTeam* team() const { return team_; }
   /// `problem` has the dynamics form.
   void prepare(const FrictionProblem& problem);
 
@@ -58,6 +60,17 @@ class SweepPlan {
       if (edges_[k] < edges_[k + 1]) task(edges_[k], edges_[k + 1]);
     });
   }
+  /// Calls task(part, its number) for the slabs' interiors, all at the same time, then for the
+  /// interfaces.
+  template <typename Task>
+  void for_parts_in_phases(const Task& task) const {
+    for_slabs([&](int begin, int end) {
+      for (int k = begin; k < end; ++k) task(parts_[k], k);
+    });
+    for_slabs([&](int begin, int end) {
+      for (int k = slabs_ + begin; k < slabs_ + std::min(end, slabs_ - 1); ++k) task(parts_[k], k);
+    });
+  }
   /// Where those ranges begin, and the end of the last; each member has as many of them. One range
   /// where there is one slab.
   const std::vector<int>& edges() const { return edges_; }
@@ -79,7 +92,6 @@ class SweepPlan {
   int breadth_first(int root, int level);
   void cut_levels(int wanted);
   void find_openings(const FrictionProblem& problem, int begin, int end);
-  int level_of(double opening) const;
   void order(const FrictionProblem& problem);
   void share_slabs();
   WorkerTeam* team_ = nullptr;
@@ -98,7 +110,6 @@ class SweepPlan {
   std::vector<long> number_sum_;  ///< of each body's own number and of its neighbours'
   std::vector<int> key_, count_, rank_;
   std::vector<double> opening_;  ///< of each contact [m/s]
-  double widest_ = 0.0;          ///< the largest of them
   std::vector<int> contacts_;
   std::vector<Part> parts_;
   std::vector<int> edges_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "problems/algebra/delassus.hpp"
@@ -24,46 +25,36 @@ constexpr int elements_apart() {
   return page / sizeof(Element);
 }
 
-/// A thread's scratch space while it groups the contacts of a part.
-struct GroupingRoom {
-  ContactGroups groups;
-  std::vector<int> chosen, a, b, walls;
-};
-
-template <typename From, typename To>
-void cast_lanes(const From (&from)[group_lanes], To (&to)[group_lanes]) {
-  for (int lane = 0; lane < group_lanes; ++lane) to[lane] = static_cast<To>(from[lane]);
+/// Rounds all numbers of an array, however many indices it has.
+template <typename From, typename To, size_t Count>
+void cast_all(const From (&from)[Count], To (&to)[Count]) {
+  for (size_t i = 0; i < Count; ++i)
+    if constexpr (std::is_array_v<From>)
+      cast_all(from[i], to[i]);
+    else
+      to[i] = static_cast<To>(from[i]);
 }
-
-template <typename From, typename To, int Rows>
-void cast_rows(const From (&from)[Rows][group_lanes], To (&to)[Rows][group_lanes]) {
-  for (int i = 0; i < Rows; ++i) cast_lanes(from[i], to[i]);
-}
-
-/// Byte offsets of body rows are half as large in single precision.
-constexpr int halved(int offset) { return offset / 2; }
 
 template <typename Double, typename Single>
 void cast_group(const Double& k, Single& s) {
-  cast_rows(k.bias, s.bias);
-  cast_rows(k.inverse_mass, s.inverse_mass);
-  for (int i = 0; i < Double::rows; ++i) {
-    cast_rows(k.line[i], s.line[i]);
-    for (int side = 0; side < 2; ++side) cast_rows(k.turn[side][i], s.turn[side][i]);
-  }
+  cast_all(k.bias, s.bias);
+  cast_all(k.inverse_mass, s.inverse_mass);
+  cast_all(k.line, s.line);
+  cast_all(k.turn, s.turn);
+  // Byte offsets of body rows are half as large in single precision.
   for (int side = 0; side < 2; ++side)
-    for (int lane = 0; lane < group_lanes; ++lane) s.body[side][lane] = halved(k.body[side][lane]);
+    for (int lane = 0; lane < group_lanes; ++lane) s.body[side][lane] = k.body[side][lane] / 2;
   if constexpr (requires { k.mu; }) {
-    cast_lanes(k.s2, s.s2);
-    cast_lanes(k.inverse_s2, s.inverse_s2);
-    cast_lanes(k.c1, s.c1);
-    cast_lanes(k.c2, s.c2);
-    cast_lanes(k.mu, s.mu);
-    cast_lanes(k.inverse_mu, s.inverse_mu);
+    cast_all(k.s2, s.s2);
+    cast_all(k.inverse_s2, s.inverse_s2);
+    cast_all(k.c1, s.c1);
+    cast_all(k.c2, s.c2);
+    cast_all(k.mu, s.mu);
+    cast_all(k.inverse_mu, s.inverse_mu);
   }
   if constexpr (requires { k.wall; }) {
-    cast_lanes(k.wall, s.wall);
-    s.wall_body = halved(k.wall_body);
+    cast_all(k.wall, s.wall);
+    s.wall_body = k.wall_body / 2;
   }
 }
 
@@ -106,9 +97,9 @@ bool WideSweep::sort_bodies(const DynamicsForm& dynamics) {
   const int bodies = dynamics.body_count();
   is_wall_.resize(bodies);
   for (int b = 0; b < bodies; ++b) {
-    is_wall_[b] = dynamics.body_dofs(b) == 1;
-    if (is_wall_[b]) continue;
-    if (dynamics.body_dofs(b) != 6 || !is_grain_mass(&dynamics.mass[dynamics.mass_begin[b]]))
+    const int dofs = dynamics.body_dofs(b);
+    is_wall_[b] = dofs == 1;
+    if (!is_wall_[b] && (dofs != 6 || !is_grain_mass(&dynamics.mass[dynamics.mass_begin[b]])))
       return false;
   }
   return true;
@@ -140,7 +131,7 @@ void WideSweep::place_bodies(const DynamicsForm& dynamics) {
       is_shared_[dynamics.body_a[c]] = is_shared_[dynamics.body_b[c]] = 1;
     }
   row_of_body_.resize(is_wall_.size());
-  const int apart = size_of(team_) > 1 ? elements_apart<BodyRow<float>>() : 0;
+  const int apart = size_of(plan_.team()) > 1 ? elements_apart<BodyRow<float>>() : 0;
   rows_ = 0;
   for (int slab = 0; slab < plan_.slabs(); ++slab) {
     Part& part = parts_[slab];
@@ -178,7 +169,7 @@ bool WideSweep::group_contacts(const DynamicsForm& dynamics) {
           range.begin = last;
           last += range.count;
           // between this part's groups and the next one's
-          if (range.count > 0 && plan_.slabs() > 1 && size_of(team_) > 1)
+          if (range.count > 0 && plan_.slabs() > 1 && size_of(plan_.team()) > 1)
             last += elements_apart<GroupImpulses<float, Group::rows>>();
         },
         exact_, part, end);
@@ -214,39 +205,41 @@ bool WideSweep::group_part(const DynamicsForm& dynamics, int number) {
   const auto row = [&](int body) {
     return body < 0 || is_wall_[body] ? -1 : row_of_body_[body] - first;
   };
-  thread_local GroupingRoom room;
+  // A thread's scratch space.
+  thread_local ContactGroups groups;
+  thread_local std::vector<int> chosen, rows_a, rows_b, walls;
   const auto group = [&](int begin, int end, int wall, std::vector<int>& lanes) {
-    for (std::vector<int>* list : {&room.chosen, &room.a, &room.b}) list->clear();
+    for (std::vector<int>* list : {&chosen, &rows_a, &rows_b}) list->clear();
     for (const int c : order.subspan(begin, end - begin)) {
       const int a = dynamics.body_a[c], b = dynamics.body_b[c];
       if ((a < 0 && b < 0) || (is_wall(a) ? a : is_wall(b) ? b : -1) != wall) continue;
-      room.chosen.push_back(c);
-      room.a.push_back(row(a));
-      room.b.push_back(row(b));
+      chosen.push_back(c);
+      rows_a.push_back(row(a));
+      rows_b.push_back(row(b));
     }
-    room.groups.make(room.chosen, room.a, room.b, rows);
-    for (int g = 0; g < room.groups.count(); ++g)
-      lanes.insert(lanes.end(), room.groups.lanes(g).begin(), room.groups.lanes(g).end());
-    grouping.contacts += static_cast<int>(room.chosen.size());
-    return room.groups.count();
+    groups.make(chosen, rows_a, rows_b, rows);
+    for (int g = 0; g < groups.count(); ++g)
+      lanes.insert(lanes.end(), groups.lanes(g).begin(), groups.lanes(g).end());
+    grouping.contacts += static_cast<int>(chosen.size());
+    return groups.count();
   };
-  for_each_kind([](auto& kind) { kind.contact.clear(); }, grouping.lanes);
+  for_each_kind([](auto& lanes) { lanes.clear(); }, grouping);
   grouping.wall_of_group.clear();
   grouping.contacts = 0;
-  room.walls.clear();
+  walls.clear();
   // The driven walls, in the order in which they appear.
   for (int i = part.begin; i < part.end; ++i) {
     const int a = dynamics.body_a[order[i]], b = dynamics.body_b[order[i]];
     if (!is_wall(a) && !is_wall(b)) continue;
     if (i < part.friction_end || (is_wall(a) && is_wall(b))) return false;
     const int wall = is_wall(a) ? a : b;
-    if (std::ranges::find(room.walls, wall) == room.walls.end()) room.walls.push_back(wall);
+    if (std::ranges::find(walls, wall) == walls.end()) walls.push_back(wall);
   }
-  made.friction.count = group(part.begin, part.friction_end, -1, grouping.lanes.friction.contact);
-  made.one_row.count = group(part.friction_end, part.end, -1, grouping.lanes.one_row.contact);
+  made.friction.count = group(part.begin, part.friction_end, -1, grouping.friction);
+  made.one_row.count = group(part.friction_end, part.end, -1, grouping.one_row);
   const int before = grouping.contacts;
-  for (const int wall : room.walls) {
-    const int added = group(part.friction_end, part.end, wall, grouping.lanes.wall.contact);
+  for (const int wall : walls) {
+    const int added = group(part.friction_end, part.end, wall, grouping.wall);
     grouping.wall_of_group.insert(grouping.wall_of_group.end(), added, wall);
     made.wall.count += added;
   }
@@ -264,19 +257,19 @@ bool WideSweep::make_records(const FrictionProblem& problem) {
     const Grouping& grouping = groupings_[number];
     for_each_kind(
         [&](auto& exact, auto& single, const auto& lanes, const Range& range, const auto& loops) {
-          typename std::decay_t<decltype(exact)>::GroupOf here;
+          std::decay_t<decltype(exact.groups[0])> here;
           for (int g = 0; g < range.count; ++g) {
             const int at = range.begin + g;
             auto& k = is_double ? exact.groups[at] : here;
-            const bool made = make_group(problem, lanes.contact.data() + g * group_lanes,
-                                         part.nowhere, k, exact.frames[at], loops);
+            const bool made = make_group(problem, lanes.data() + g * group_lanes, part.nowhere, k,
+                                         exact.frames[at], loops);
             part.is_vectorisable = part.is_vectorisable && made;
             if constexpr (requires { k.wall; })
               k.wall_body = row_of_body_[grouping.wall_of_group[g]] * row_bytes;
             if (!is_double) cast_group(k, single.groups[at]);
           }
         },
-        exact_, single_, grouping.lanes, part, kernels_->exact);
+        exact_, single_, grouping, part, kernels_->exact);
   });
   return std::ranges::all_of(parts_, &Part::is_vectorisable);
 }
@@ -293,7 +286,7 @@ bool WideSweep::make_group(const FrictionProblem& problem, const int* lanes, int
   bool made = true;
   for (int lane = 0; lane < group_lanes; ++lane)
     if (lanes[lane] >= 0 && !fill_lane(problem, k, f, lane)) made = false;
-  loops.make_principal(&k, &f, 1);
+  loops.make_principal(k, f);
   std::copy_n(&f.bias[0][0], Group::rows * group_lanes, &k.bias[0][0]);
   for (int lane = 0; lane < group_lanes; ++lane)  // 0: nothing moves it along its normal
     if (lanes[lane] >= 0 && !(f.lambda_max[lane] > 0.0)) made = false;
@@ -345,7 +338,7 @@ bool WideSweep::fill_lane(const FrictionProblem& problem, Group& k, GroupFrame& 
 void WideSweep::free_bodies(const DynamicsForm& dynamics) {
   free_.assign(rows_, {});
   exact_.bodies.assign(rows_, {});
-  run_each(team_, dynamics.body_count(), /*together=*/64, [&](int b) {
+  run_each(plan_.team(), dynamics.body_count(), /*together=*/64, [&](int b) {
     // Grains keep their velocity v [m/s]; only the angular velocity is multiplied by L^T.
     double* w = free_[row_of_body_[b]].w;
     const double* v = dynamics.v_free.data() + dynamics.dof_begin[b];

@@ -41,14 +41,11 @@ void WideSweep::load(const FrictionProblem& problem, const Impulses& r) {
   at_start_ = true;
   in_single_ = single_begins_ = single_allowed_;
   start_search();
-  if (in_single_)
-    load_into(single_, kernels_->single, r);
-  else
-    load_into(exact_, kernels_->exact, r);
+  in_single_ ? load_into(single_, r) : load_into(exact_, r);
 }
 
-template <typename Number, typename Kernels>
-void WideSweep::load_into(State<Number>& state, const Kernels& kernels, const Impulses& r) {
+template <typename Number>
+void WideSweep::load_into(State<Number>& state, const Impulses& r) {
   if constexpr (std::is_same_v<Number, double>)
     need_exact();
   else
@@ -79,15 +76,15 @@ void WideSweep::load_into(State<Number>& state, const Kernels& kernels, const Im
           }
         },
         state, exact_, part);
-    push_part(state, kernels, part);
+    push_part(state, part);
   });
   if (in_single_) last_bodies_ = exact_.bodies;
 }
 
 /// Gives a slab's bodies their free velocities; then every impulse of the part pushes once. In
 /// single precision it also sums the squares of the normal impulses, as velocities n y'.
-template <typename Number, typename Kernels>
-void WideSweep::push_part(const State<Number>& state, const Kernels& kernels, Part& part) {
+template <typename Number>
+void WideSweep::push_part(const State<Number>& state, Part& part) {
   std::copy_n(free_.begin() + part.bodies.begin, part.bodies.count,
               exact_.bodies.begin() + part.bodies.begin);
   double squares[group_lanes] = {};
@@ -102,7 +99,7 @@ void WideSweep::push_part(const State<Number>& state, const Kernels& kernels, Pa
               squares[lane] += y * y;
             }
       },
-      state, exact_, kernels, part);
+      state, exact_, kernels_of(state), part);
   part.impulse_square = std::accumulate(squares, squares + group_lanes, 0.0);
 }
 
@@ -167,64 +164,61 @@ void WideSweep::store_from(const State<Number>& state, Impulses& r) const {
 
 /// Sweeps one part, or two parts without a common body: first the contacts with friction of both,
 /// then the one-row contacts, then those on driven walls.
-template <typename Number, typename Kernels>
-void WideSweep::sweep_parts(State<Number>& state, const Kernels& kernels, const SearchStep* step,
-                            std::span<Part> parts) {
+template <typename Number>
+void WideSweep::sweep_parts(State<Number>& state, const SearchStep* step, std::span<Part> parts) {
   for (Part& part : parts) part.change_square = 0.0;
-  const auto sweep_kind = [&](auto& kind, const auto& loops, Range Part::*range) {
-    using Run = typename std::decay_t<decltype(kind)>::Loops::Run;
-    Run runs[2] = {};
-    for (size_t k = 0; k < parts.size(); ++k) {
-      const Range at = parts[k].*range;
-      constexpr bool all = std::is_same_v<Number, double>;
-      runs[k] = {kind.groups.data() + at.begin,
-                 kind.impulses.data() + at.begin,
-                 kind.search.empty() ? nullptr : kind.search.data() + at.begin,
-                 all ? nullptr : kind.awake.data() + at.begin,
-                 all ? at.count : at.awake,
-                 kind.groups.size() * sizeof kind.groups[0] > far_bytes};
-    }
-    double squares[2] = {};
-    loops.sweep(runs, step, state.bodies.data(), squares);
-    for (size_t k = 0; k < parts.size(); ++k) parts[k].change_square += squares[k];
-  };
-  sweep_kind(state.friction, kernels.friction, &Part::friction);
-  sweep_kind(state.one_row, kernels.one_row, &Part::one_row);
-  sweep_kind(state.wall, kernels.wall, &Part::wall);
+  for_each_kind(
+      [&](auto& kind, const auto& loops, const Range& first, const Range& last) {
+        typename std::decay_t<decltype(kind)>::Loops::Run runs[2] = {};
+        for (size_t k = 0; k < parts.size(); ++k) {
+          const Range& at = k == 0 ? first : last;
+          constexpr bool all = std::is_same_v<Number, double>;
+          runs[k] = {kind.groups.data() + at.begin,
+                     kind.impulses.data() + at.begin,
+                     kind.search.empty() ? nullptr : kind.search.data() + at.begin,
+                     all ? nullptr : kind.awake.data() + at.begin,
+                     all ? at.count : at.awake,
+                     kind.groups.size() * sizeof kind.groups[0] > far_bytes};
+        }
+        double squares[2] = {};
+        loops.sweep(runs, step, state.bodies.data(), squares);
+        for (size_t k = 0; k < parts.size(); ++k) parts[k].change_square += squares[k];
+      },
+      state, kernels_of(state), parts.front(), parts.back());
 }
 
 /// Sweeps the interiors, after their bodies' step along a search, then the interfaces.
-template <typename Number, typename Kernels>
-double WideSweep::sweep_in(State<Number>& state, const Kernels& kernels, const SearchStep* step) {
+template <typename Number>
+double WideSweep::sweep_in(State<Number>& state, const SearchStep* step) {
   for_pairs(std::span(parts_).first(plan_.slabs()), [&](std::span<Part> parts) {
     for (const Part& part : parts)
       if (step)
-        kernels.move_bodies(part.bodies.count, *step, state.bodies.data() + part.bodies.begin,
-                            state.before.data() + part.bodies.begin,
-                            state.direction.data() + part.bodies.begin);
-    sweep_parts(state, kernels, step, parts);
+        kernels_of(state).move_bodies(
+            part.bodies.count, *step, state.bodies.data() + part.bodies.begin,
+            state.before.data() + part.bodies.begin, state.direction.data() + part.bodies.begin);
+    sweep_parts(state, step, parts);
   });
   for_pairs(std::span(parts_).subspan(plan_.slabs()), [&](std::span<Part> parts) {
     for (const Part& part : parts) prefetch_shared(state, part);
-    sweep_parts(state, kernels, step, parts);
+    sweep_parts(state, step, parts);
   });
-  double square = 0.0;
-  for (const Part& part : parts_) square += part.change_square;
-  return square;
+  return sum(&Part::change_square);
+}
+
+/// Adds a number of every part, in their order.
+double WideSweep::sum(double Part::*number) const {
+  double total = 0.0;
+  for (const Part& part : parts_) total += part.*number;
+  return total;
 }
 
 double WideSweep::sweep_in_precision(const SearchStep* step) {
   if (single_begins_) error();
-  if (step && std::exchange(search_begins_, false)) {
-    if (in_single_)
-      start_search_in(single_);
-    else
-      start_search_in(exact_);
-  }
+  if (step && std::exchange(search_begins_, false))
+    in_single_ ? start_search_in(single_) : start_search_in(exact_);
   at_start_ = false;
   ++unseen_;
-  return in_single_ ? sweep_in(single_, kernels_->single, step)
-                    : sweep_in(exact_, kernels_->exact, step);
+  return in_single_ ? sweep_in(single_, step) : sweep_in(exact_, step);
 }
 
 template <typename Number>
@@ -241,19 +235,24 @@ void WideSweep::start_search() {
 }
 
 double WideSweep::error() {
-  if (!in_single_) return error_in<false>(exact_, kernels_->exact);
+  if (!in_single_) return error_in(exact_, exact_);
   if (!at_start_) {
     last_bodies_.swap(exact_.bodies);
-    for_parts_in_phases(exact_, [this](Part& part) { push_part(single_, kernels_->single, part); });
+    for_parts_in_phases(exact_, [this](Part& part) { push_part(single_, part); });
   }
-  seen_error_ = error_in</*is_rough=*/false>(single_, kernels_->single);
+  seen_error_ = error_in(single_, exact_);
   for_parts_in_phases(exact_, [this](Part& part) { settle(part); });
   unseen_ = 0;
   single_begins_ = false;
-  const double rounding = rounding_of_impulses();
-  if (!(rounding + drift_of_bodies() <= allowed_share * seen_error_)) {
+  // How much the rounding of impulses and records may change the error: a multiple of the impulses'
+  // own rounding as velocities of their contacts. Like the drift of the bodies it is an rms.
+  const double rounding =
+      single_rounding * std::sqrt(sum(&Part::impulse_square) / std::max(1, contacts_));
+  const double drift =
+      std::sqrt(sum(&Part::drift_square) / static_cast<double>(row_of_body_.size()));
+  if (!(rounding + drift <= allowed_share * seen_error_)) {
     leave_single();
-    return error_in<false>(exact_, kernels_->exact);
+    return error_in(exact_, exact_);
   }
   choose_awake(seen_error_);
   return seen_error_ + rounding;
@@ -264,39 +263,34 @@ double WideSweep::rough_error() {
   constexpr int most_unseen = 64;
   constexpr double least_share = 1.0 / 32.0;
   if (!in_single_ || single_begins_ || unseen_ >= most_unseen) return error();
-  const double rough = error_in</*is_rough=*/true>(single_, kernels_->single);
+  const double rough = error_in(single_, single_);
   if (!(rough > least_share * seen_error_)) return error();
   choose_awake(rough);
   return rough;
 }
 
-/// The error in double, or the rough one in single precision.
-template <bool is_rough, typename Number, typename Kernels>
-double WideSweep::error_in(State<Number>& state, const Kernels& kernels) {
-  const auto add = [&](Part& part) {
+/// The error of the state's impulses when its bodies move as in `moved`: in double, or the rough
+/// one in single precision.
+template <typename Number, typename BodyNumber>
+double WideSweep::error_in(const State<Number>& state, const State<BodyNumber>& moved) {
+  for_parts_in_phases(moved, [&](Part& part) {
     part.error_square = 0.0;
     for_each_kind(
         [&](const auto& kind, const auto& exact, auto& single, const auto& loops, Range range) {
-          const auto evaluate = [&](auto loop, const auto& bodies) {
+          const auto evaluate = [&](auto loop) {
             part.error_square +=
                 loop(kind.groups.data() + range.begin, kind.impulses.data() + range.begin,
-                     exact.frames.data() + range.begin, range.count, bodies.data(),
+                     exact.frames.data() + range.begin, range.count, moved.bodies.data(),
                      in_single_ ? single.seen.data() + range.begin : nullptr);
           };
-          if constexpr (is_rough)
-            evaluate(loops.rough_error, state.bodies);
+          if constexpr (std::is_same_v<BodyNumber, float>)
+            evaluate(loops.rough_error);
           else
-            evaluate(loops.error, exact_.bodies);
+            evaluate(loops.error);
         },
-        state, exact_, single_, kernels, part);
-  };
-  if constexpr (is_rough)
-    for_parts_in_phases(state, add);
-  else
-    for_parts_in_phases(exact_, add);
-  double sum = 0.0;
-  for (const Part& part : parts_) sum += part.error_square;
-  return contacts_ > 0 ? std::sqrt(sum / contacts_) : 0.0;
+        state, exact_, single_, kernels_of(state), part);
+  });
+  return contacts_ > 0 ? std::sqrt(sum(&Part::error_square) / contacts_) : 0.0;
 }
 
 // Sweeps in single precision, corrected in double by every error().
@@ -327,24 +321,6 @@ void WideSweep::settle(Part& part) {
           std::memcpy(single.groups[g].bias, single.seen[g].u, sizeof single.seen[g].u);
       },
       single_, part);
-}
-
-/// How much the rounding of impulses and records may change the error: a multiple of the impulses'
-/// own rounding as velocities of their contacts, rms.
-double WideSweep::rounding_of_impulses() const {
-  double squares = 0.0;
-  for (const Part& part : parts_) squares += part.impulse_square;
-  return single_rounding * std::sqrt(squares / std::max(1, contacts_));
-}
-
-/// rms over bodies.
-double WideSweep::drift_of_bodies() const {
-  double squares = 0.0, bodies = 0.0;
-  for (const Part& part : parts_) {
-    squares += part.drift_square;
-    bodies += part.bodies.count;
-  }
-  return std::sqrt(squares / bodies);
 }
 
 /// Lets a group rest if its contacts have no impulse and open fast: a sweep would leave them so.
@@ -388,7 +364,7 @@ int WideSweep::resting_groups() const {
 void WideSweep::leave_single() {
   in_single_ = false;
   start_search();
-  if (at_start_) return load_into(exact_, kernels_->exact, start_);
+  if (at_start_) return load_into(exact_, start_);
   need_exact();
   for_parts_in_phases(exact_, [this](Part& part) {
     for_each_kind(
@@ -401,7 +377,7 @@ void WideSweep::leave_single() {
           }
         },
         exact_, single_, part);
-    push_part(exact_, kernels_->exact, part);
+    push_part(exact_, part);
   });
 }
 

@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "platform/worker_team.hpp"
 #include "problems/algebra/friction_problem.hpp"
 #include "problems/algebra/mass_root.hpp"
 #include "solvers/gauss_seidel/contact_sweep.hpp"
@@ -19,11 +18,8 @@ namespace ballast {
 
 class WideSweep final : public ContactSweep {
  public:
-  /// The plan must outlive the sweep.
+  /// The plan, whose team shares the sweep's work, must outlive it.
   explicit WideSweep(const SweepPlan& plan) : plan_(plan) {}
-
-  /// Shares sweeps, error evaluations and preparation; null: one thread.
-  void use_team(WorkerTeam* team) { team_ = team; }
 
   /// The plan must have been prepared for `problem`. False, and nothing else may be called: another
   /// kind of problem, or one whose lanes would mostly stay empty.
@@ -53,7 +49,6 @@ class WideSweep final : public ContactSweep {
   /// The groups of one kind, and their impulses.
   template <typename Group>
   struct Kind {
-    using GroupOf = Group;
     using Loops = GroupLoops<Group>;
     std::vector<Group> groups;
     std::vector<GroupFrame> frames;  ///< in double only
@@ -85,13 +80,10 @@ class WideSweep final : public ContactSweep {
     double impulse_square = 0.0, drift_square = 0.0;  ///< at the last error() in single precision
     bool is_vectorisable = true;  ///< there are groups for all kinds of its contacts
   };
-  template <typename Group>
-  struct Lanes {
-    std::vector<int> contact;  ///< group_lanes for each group; -1: none
-  };
   /// The groups of contacts of a part.
   struct Grouping {
-    Kinds<Lanes, double> lanes;
+    /// The contacts in the lanes, group_lanes for each group of a kind; -1: none.
+    std::vector<int> friction, one_row, wall;
     std::vector<int> wall_of_group;  ///< the driven wall of each group of wall contacts
     int contacts = 0, on_walls = 0;  ///< numbers of contacts that something moves
   };
@@ -121,15 +113,9 @@ class WideSweep final : public ContactSweep {
   /// Calls task(part) for all interiors at the same time, then for all interfaces.
   template <typename Number, typename Task>
   void for_parts_in_phases(const State<Number>& state, const Task& task) {
-    plan_.for_slabs([&](int begin, int end) {
-      for (int slab = begin; slab < end; ++slab) task(parts_[slab]);
-    });
-    Part* interfaces = parts_.data() + plan_.slabs();
-    plan_.for_slabs([&](int begin, int end) {
-      for (int k = begin; k < std::min(end, plan_.slabs() - 1); ++k) {
-        prefetch_shared(state, interfaces[k]);
-        task(interfaces[k]);
-      }
+    plan_.for_parts_in_phases([&](const SweepPlan::Part&, int number) {
+      if (number >= plan_.slabs()) prefetch_shared(state, parts_[number]);
+      task(parts_[number]);
     });
   }
   /// Calls task(number) for all parts, each slab followed by the interface behind it. Each thread
@@ -153,32 +139,31 @@ class WideSweep final : public ContactSweep {
   }
   template <typename Number>
   void prefetch_shared(const State<Number>& state, const Part& interface) const;
-  template <typename Number, typename Kernels>
-  void load_into(State<Number>& state, const Kernels& kernels, const Impulses& r);
+  const auto& kernels_of(const State<double>&) const { return kernels_->exact; }
+  const auto& kernels_of(const State<float>&) const { return kernels_->single; }
+  template <typename Number>
+  void load_into(State<Number>& state, const Impulses& r);
   template <typename Number>
   void store_from(const State<Number>& state, Impulses& r) const;
-  template <typename Number, typename Kernels>
-  void push_part(const State<Number>& state, const Kernels& kernels, Part& part);
-  template <typename Number, typename Kernels>
-  void sweep_parts(State<Number>& state, const Kernels& kernels, const SearchStep* step,
-                   std::span<Part> parts);
-  template <typename Number, typename Kernels>
-  double sweep_in(State<Number>& state, const Kernels& kernels, const SearchStep* step);
+  template <typename Number>
+  void push_part(const State<Number>& state, Part& part);
+  template <typename Number>
+  void sweep_parts(State<Number>& state, const SearchStep* step, std::span<Part> parts);
+  template <typename Number>
+  double sweep_in(State<Number>& state, const SearchStep* step);
   double sweep_in_precision(const SearchStep* step);
   template <typename Number>
   void start_search_in(State<Number>& state);
 
   void settle(Part& part);
-  template <bool is_rough, typename Number, typename Kernels>
-  double error_in(State<Number>& state, const Kernels& kernels);
-  double rounding_of_impulses() const;
-  double drift_of_bodies() const;
+  template <typename Number, typename BodyNumber>
+  double error_in(const State<Number>& state, const State<BodyNumber>& moved);
+  double sum(double Part::*number) const;
   void choose_awake(double error);
   void leave_single();
 
   const SweepPlan& plan_;
-  WorkerTeam* team_ = nullptr;
-  const GroupKernels* kernels_ = &group_kernels();
+  const GroupKernels* kernels_ = all_group_kernels().front();
 
   std::vector<MassRoot> roots_;
   std::vector<char> is_wall_;          ///< of each body
@@ -195,9 +180,7 @@ class WideSweep final : public ContactSweep {
   std::vector<BodyRow<double>> free_;
   std::vector<Part> parts_;  ///< in the plan's order, in which sums over parts are added
 
-  // In single precision the bodies hold the change since the last error(), and the velocities that
-  // the contacts had then are their biases, so that only the change is rounded.
-  State<float> single_;
+  State<float> single_;                       ///< see settle()
   std::vector<BodyRow<double>> last_bodies_;  ///< exact_.bodies at the last error()
   Impulses start_;                            ///< as they were loaded
   bool at_start_ = false;                     ///< no sweep since then

@@ -83,16 +83,6 @@ void BodyMatrix::prepare(const FrictionProblem& problem) {
   fronts_.analyse(matrix_, dof_begin);
 }
 
-void BodyMatrix::add_masses() {
-  const DynamicsForm& d = problem_->dynamics;
-  for (int b = 0; b < d.body_count(); ++b) {
-    const int n = d.body_dofs(b);
-    const double* mass = d.mass.data() + d.mass_begin[b];
-    double* values = matrix_.valuePtr() + masses_[b].first;
-    for (int j = 0; j < n; ++j) std::copy_n(mass + j * n, n, values + j * masses_[b].height);
-  }
-}
-
 /// Adds H^T E H of one contact.
 void BodyMatrix::add_contact(int c, const Eigen::Matrix3d& e) {
   const DynamicsForm& d = problem_->dynamics;
@@ -113,8 +103,14 @@ void BodyMatrix::add_contact(int c, const Eigen::Matrix3d& e) {
 }
 
 bool BodyMatrix::factor(const std::vector<Eigen::Matrix3d>& gain) {
+  const DynamicsForm& d = problem_->dynamics;
   std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
-  add_masses();
+  for (int b = 0; b < d.body_count(); ++b) {
+    const int n = d.body_dofs(b);
+    const double* mass = d.mass.data() + d.mass_begin[b];
+    double* values = matrix_.valuePtr() + masses_[b].first;
+    for (int j = 0; j < n; ++j) std::copy_n(mass + j * n, n, values + j * masses_[b].height);
+  }
   for (int c = 0; c < problem_->contact_count(); ++c)
     if (!gain[c].isZero(0.0)) add_contact(c, gain[c]);
   return fronts_.factor(matrix_);

@@ -35,7 +35,6 @@ class BodyMatrix {
   struct Place {
     int first, height;
   };
-  void add_masses();
   void add_contact(int c, const Eigen::Matrix3d& gain);
 
   const FrictionProblem* problem_ = nullptr;

@@ -52,15 +52,6 @@ void ConeProgram::project(Eigen::VectorXd& x) const {
       x[row_begin[k]] = std::max(0.0, x[row_begin[k]]);
 }
 
-/// q plus s, plus the product of W's skew part with x, which the symmetric part leaves out.
-Eigen::VectorXd ConeProgram::linear_term(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd term = q + w_as_is_ * x - w * x;
-  // scale_ is unit D here, so that this is D s / unit: s is a velocity like q.
-  for (int k = 0; k < contact_count(); ++k)
-    term[row_begin[k]] += shift_[moving_.contact[k]] * scale_[row_begin[k]] / (unit_ * unit_);
-  return term;
-}
-
 Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const Budget& budget,
                           int patience,
                           const std::function<void(const ConeRequest&, RoundAnswer&)>& convex) {
@@ -74,7 +65,11 @@ Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const 
   Impulses r;
   const auto round = [&](const RoundRequest& request, RoundAnswer& answer) {
     Eigen::VectorXd x = request.last(row_).cwiseQuotient(scale_);
-    const Eigen::VectorXd term = linear_term(x);
+    // q plus s, plus the product of W's skew part with x, which the symmetric part leaves out.
+    Eigen::VectorXd term = q + w_as_is_ * x - w * x;
+    // scale_ is unit D here, so that this is D s / unit: s is a velocity like q.
+    for (int k = 0; k < contact_count(); ++k)
+      term[row_begin[k]] += shift_[moving_.contact[k]] * scale_[row_begin[k]] / (unit_ * unit_);
     project(x);
     convex({term, x, budget.aim() / velocity_unit_, request.left}, answer);
     const Eigen::VectorXd solved = std::move(answer.x);

@@ -46,8 +46,6 @@ class ConeProgram {
                const std::function<void(const ConeRequest&, RoundAnswer&)>& convex);
 
  private:
-  Eigen::VectorXd linear_term(const Eigen::VectorXd& x) const;
-
   ReducedProblem moving_;
   SparseRows w_as_is_;  ///< a stored W may be unsymmetric: solve() adds its skew part to q, like s
   std::vector<int> row_;   ///< row in ReducedProblem of each row here

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "problems/algebra/friction_cone.hpp"
-
 namespace ballast {
 namespace {
 
@@ -62,12 +60,11 @@ Vector3d jordan_norm(const Vector3d& x, const Vector3d& y) {
 
 ContactLinearisation fischer_burmeister_linearised(const Vector3d& r, const Vector3d& u, double mu,
                                                    double rho) {
-  ContactLinearisation l{Vector3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
+  ContactLinearisation l;
   if (mu == 0.0) {  // scalar along the normal, r_T = 0
     const double x = r[0], y = rho * u[0], norm = std::hypot(x, y);
     l.f = Vector3d(x + y - norm, r[1], r[2]);
     // Where x and y both vanish F has a corner; 0.3 is about 1 - sqrt(1/2), its slope along x = y.
-    l.df_dr = Matrix3d::Identity();
     l.df_dr(0, 0) = norm > 0.0 ? 1.0 - x / norm : 0.3;
     l.df_du(0, 0) = rho * (norm > 0.0 ? 1.0 - y / norm : 0.3);
     return l;
@@ -103,6 +100,49 @@ ContactLinearisation linearise(ContactEquation equation, const Vector3d& r, cons
                                double mu, double rho) {
   return equation == ContactEquation::alart_curnier ? alart_curnier_linearised(r, u, mu, rho)
                                                     : fischer_burmeister_linearised(r, u, mu, rho);
+}
+
+RegularStep regular_step(double mu, double rho, double epsilon, const Eigen::Vector3d& r,
+                         const Eigen::Vector3d& u) {
+  RegularStep step;
+  const double stiffness = rho / epsilon;
+  const Eigen::Vector3d z = r - rho * u;
+  // Open: the impulse goes to zero.
+  if (z[0] <= 0.0) {
+    step.source = -r;
+    return step;
+  }
+  if (mu == 0.0) {  // a half-line
+    step.source = Eigen::Vector3d(-u[0] * stiffness, -r[1], -r[2]);
+    step.gain(0, 0) = stiffness;
+    step.status = ContactStatus::stick;
+    return step;
+  }
+  // Stick: u~ + du~ = 0.
+  // u~ changes by du + epsilon_c dr, hence dr = -(u~ + du) / epsilon_c: a stiff spring.
+  const double t = std::hypot(z[1], z[2]);
+  if (t <= mu * z[0]) {
+    step.source = -u * stiffness;
+    step.gain = stiffness * Eigen::Matrix3d::Identity();
+    step.status = ContactStatus::stick;
+    return step;
+  }
+  // Slip: u~_N + du~_N = 0. Along z_T the impulse goes to the disc's edge, which moves with r_N;
+  // across z_T it turns as the projection on the disc does. kappa <= 1: else a gain is negative.
+  const double e1 = z[1] / t, e2 = z[2] / t, radius = mu * std::max(r[0], 0.0);
+  const double kappa = std::min(1.0, radius / t);
+  // Across z_T: r + dr = kappa dz with dz = dr - rho (du + epsilon_c dr) and rho epsilon_c =
+  // epsilon give (1 - kappa + kappa epsilon) dr = -r - kappa rho du.
+  const double turn = 1.0 - kappa + kappa * epsilon, across_gain = kappa * rho / turn;
+  const double normal = -u[0] * stiffness;
+  const double along = radius - (e1 * r[1] + e2 * r[2]) + mu * normal;
+  const double across = -(e1 * r[2] - e2 * r[1]) / turn;
+  step.source = Eigen::Vector3d(normal, along * e1 - across * e2, along * e2 + across * e1);
+  step.gain << stiffness, 0.0, 0.0,                                        //
+      mu * e1 * stiffness, across_gain * e2 * e2, -across_gain * e1 * e2,  //
+      mu * e2 * stiffness, -across_gain * e1 * e2, across_gain * e1 * e1;
+  step.status = ContactStatus::slip;
+  return step;
 }
 
 }  // namespace ballast

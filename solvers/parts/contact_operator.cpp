@@ -7,7 +7,6 @@ namespace ballast {
 
 void ContactOperator::prepare(const FrictionProblem& problem) {
   problem_ = &problem;
-  // W_cc of every contact, and for the dynamics form the Cholesky factors of the masses.
   delassus_diagonal(problem, roots_, diagonal_);
   rho_.resize(diagonal_.size());
   for (std::size_t c = 0; c < rho_.size(); ++c) {
@@ -16,7 +15,6 @@ void ContactOperator::prepare(const FrictionProblem& problem) {
   }
 }
 
-// H^T r as forces on the bodies, then two triangular solves with each body's own factor.
 void ContactOperator::push_bodies(const Impulses& r) {
   contact_to_body_impulse(problem_->dynamics, problem_->row_begin, r, v_);
   solve_masses(problem_->dynamics, roots_, v_);
@@ -59,12 +57,9 @@ double ContactOperator::project_and_evaluate(Impulses& r, Eigen::VectorXd& u) {
 double ContactOperator::error(const Impulses& r, const Eigen::VectorXd& u) const {
   RootMeanSquare mean;
   // As in the judge's measure, contacts that no impulse moves are left out.
-  for (int c = 0; c < contact_count(); ++c) {
-    if (!(rho_[c] > 0.0)) continue;
-    const double value =
-        ContactJudge::scaled_natural_map(at(r, c), at(u, c), friction(c), 1.0 / rho_[c]);
-    mean.add(value);
-  }
+  for (int c = 0; c < contact_count(); ++c)
+    if (rho_[c] > 0.0)
+      mean.add(ContactJudge::scaled_natural_map(at(r, c), at(u, c), friction(c), 1.0 / rho_[c]));
   return mean.value();
 }
 

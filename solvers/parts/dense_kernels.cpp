@@ -14,8 +14,6 @@ constexpr int tall_rows = 16;    // for 512 bits: 12 of 32; with fewer, loads ta
 constexpr int chunk = 256;       // terms of the sum over k at once: packed A stays in cache
 constexpr int strip = 24;        // rows that are solved before a long product
 
-#define BALLAST_INLINE inline __attribute__((always_inline))
-
 /// `height` rows of a column, in registers of `bytes` bytes.
 template <int bytes, int height = tile_rows>
 struct Rows {
@@ -24,23 +22,23 @@ struct Rows {
   typedef double Loose __attribute__((vector_size(bytes), aligned(8), may_alias));
   Register part[count];
 
-  BALLAST_INLINE void clear() {
+  BALLAST_IN_LOOP void clear() {
     for (int i = 0; i < count; ++i) part[i] = Register{};
   }
-  BALLAST_INLINE void load(const double* from) {
+  BALLAST_IN_LOOP void load(const double* from) {
     for (int i = 0; i < count; ++i) part[i] = *reinterpret_cast<const Loose*>(from + i * lanes);
   }
-  BALLAST_INLINE void store(double* to) const {
+  BALLAST_IN_LOOP void store(double* to) const {
     for (int i = 0; i < count; ++i) *reinterpret_cast<Loose*>(to + i * lanes) = part[i];
   }
   /// Loads the first `rows` rows and sets the others to zero.
-  BALLAST_INLINE void load(const double* from, int rows) {
+  BALLAST_IN_LOOP void load(const double* from, int rows) {
     if (rows == height) return load(from);
     double all[height];
     for (int i = 0; i < height; ++i) all[i] = i < rows ? from[i] : 0.0;
     load(all);
   }
-  BALLAST_INLINE void store(double* to, int rows) const {
+  BALLAST_IN_LOOP void store(double* to, int rows) const {
     if (rows == height) return store(to);
     double all[height];
     store(all);
@@ -50,9 +48,9 @@ struct Rows {
 
 /// N columns of C -= packed A times B.
 template <int N, int bytes, int height>
-BALLAST_INLINE void subtract_tile(int rows, int depth, const Rows<bytes, height>* packed,
-                                  const double* b, std::int64_t stride_b, double* c,
-                                  std::int64_t stride_c) {
+BALLAST_IN_LOOP void subtract_tile(int rows, int depth, const Rows<bytes, height>* packed,
+                                   const double* b, std::int64_t stride_b, double* c,
+                                   std::int64_t stride_c) {
   Rows<bytes, height> sum[N];
   for (int j = 0; j < N; ++j) sum[j].clear();
   for (int p = 0; p < depth; ++p)
@@ -69,18 +67,18 @@ BALLAST_INLINE void subtract_tile(int rows, int depth, const Rows<bytes, height>
 
 /// subtract_tile() for `columns` columns, at most N.
 template <int N, int bytes, int height>
-BALLAST_INLINE void subtract_last(int columns, int rows, int depth,
-                                  const Rows<bytes, height>* packed, const double* b,
-                                  std::int64_t stride_b, double* c, std::int64_t stride_c) {
+BALLAST_IN_LOOP void subtract_last(int columns, int rows, int depth,
+                                   const Rows<bytes, height>* packed, const double* b,
+                                   std::int64_t stride_b, double* c, std::int64_t stride_c) {
   if (columns == N) return subtract_tile<N>(rows, depth, packed, b, stride_b, c, stride_c);
   if constexpr (N > 1) subtract_last<N - 1>(columns, rows, depth, packed, b, stride_b, c, stride_c);
 }
 
 /// `rows` rows of C -= A B, at most `height`; `depth` terms of the sum.
 template <int bytes, int height>
-BALLAST_INLINE void subtract_rows(int rows, int n, int depth, const double* a,
-                                  std::int64_t stride_a, const double* b, std::int64_t stride_b,
-                                  double* c, std::int64_t stride_c) {
+BALLAST_IN_LOOP void subtract_rows(int rows, int n, int depth, const double* a,
+                                   std::int64_t stride_a, const double* b, std::int64_t stride_b,
+                                   double* c, std::int64_t stride_c) {
   Rows<bytes, height> packed[chunk];
   for (int p = 0; p < depth; ++p) packed[p].load(a + p * stride_a, rows);
   int j = 0;
@@ -93,9 +91,9 @@ BALLAST_INLINE void subtract_rows(int rows, int n, int depth, const double* a,
 }
 
 template <int bytes>
-BALLAST_INLINE void product_loop(int m, int n, int k, const double* a, std::int64_t stride_a,
-                                 const double* b, std::int64_t stride_b, double* c,
-                                 std::int64_t stride_c) {
+BALLAST_IN_LOOP void product_loop(int m, int n, int k, const double* a, std::int64_t stride_a,
+                                  const double* b, std::int64_t stride_b, double* c,
+                                  std::int64_t stride_c) {
   for (int from = 0; from < k; from += chunk, a += chunk * stride_a) {
     const int depth = std::min(chunk, k - from);
     int i = 0;
@@ -111,7 +109,7 @@ BALLAST_INLINE void product_loop(int m, int n, int k, const double* a, std::int6
 
 /// N columns of B := L^-1 B with `rows` rows. `l`: L's columns, zero on and above the diagonal.
 template <int N, int bytes>
-BALLAST_INLINE void solve_tile(int rows, const Rows<bytes>* l, double* b, std::int64_t stride_b) {
+BALLAST_IN_LOOP void solve_tile(int rows, const Rows<bytes>* l, double* b, std::int64_t stride_b) {
   double* column[N];
   Rows<bytes> x[N];
   for (int j = 0; j < N; ++j) {
@@ -127,8 +125,8 @@ BALLAST_INLINE void solve_tile(int rows, const Rows<bytes>* l, double* b, std::i
 }
 
 template <int bytes>
-BALLAST_INLINE void solve_loop(int rows, int n, const double* l, std::int64_t stride_l, double* b,
-                               std::int64_t stride_b) {
+BALLAST_IN_LOOP void solve_loop(int rows, int n, const double* l, std::int64_t stride_l, double* b,
+                                std::int64_t stride_b) {
   Rows<bytes> packed[tile_rows] = {};
   for (int k = 0; k < rows; ++k) {
     double below[tile_rows] = {};

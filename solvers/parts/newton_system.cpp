@@ -3,15 +3,6 @@
 #include <Eigen/LU>
 
 namespace ballast {
-namespace {
-
-/// Up to so many rows a dense factorisation is faster than looking for zeros.
-constexpr int few_rows = 160;
-/// With more rows it is so where this share of the square is filled, up to most_dense_rows rows.
-constexpr double nearly_full = 0.3;
-constexpr int most_dense_rows = 600;
-
-}  // namespace
 
 /// Solves the contacts with df_du = 0 and lists the others.
 bool NewtonSystem::solve_idle(const FrictionProblem& problem,
@@ -136,6 +127,10 @@ bool NewtonSystem::solve(const ContactOperator& w, const std::vector<ContactLine
   if (problem.has_dynamics) return solve_bodies(w, linear, alpha, dr);
   if (!solve_idle(problem, linear, alpha, dr)) return false;
   if (pressed_.empty()) return true;
+  // With few rows a dense factorisation is faster than looking for zeros; with more it is so where
+  // this share of the square is filled.
+  constexpr int few_rows = 160, most_dense_rows = 600;
+  constexpr double nearly_full = 0.3;
   const double square = static_cast<double>(pressed_rows_) * pressed_rows_;
   const bool is_full = static_cast<double>(pressed_entries_) > nearly_full * square;
   const bool is_dense = pressed_rows_ <= few_rows || (is_full && pressed_rows_ <= most_dense_rows);

@@ -1,14 +1,10 @@
 #include "solvers/parts/one_contact.hpp"
 
 namespace ballast {
-namespace {
-
-constexpr double rounding = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 void make_principal(const Eigen::Matrix3d& w, double mu, PrincipalContact& contact,
                     TangentTurn& turn) {
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
   contact = {};
   turn = {};
   contact.mu = mu;

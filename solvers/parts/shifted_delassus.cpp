@@ -7,8 +7,7 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
   const FrictionProblem& problem = w.problem();
   shift.resize(problem.contact_count());
   sigma.resize(problem.contact_count());
-  dynamics_ = problem.has_dynamics;
-  if (dynamics_) {
+  if (problem.has_dynamics) {
     h_ = sparse_h(problem);
     return bodies_.prepare(problem);
   }
@@ -16,9 +15,9 @@ void ShiftedDelassus::prepare(ContactOperator& w) {
 }
 
 bool ShiftedDelassus::factor() {
-  if (dynamics_) return bodies_.factor(sigma);
-  SparseColumns sum = stored_;
   const FrictionProblem& problem = w_->problem();
+  if (problem.has_dynamics) return bodies_.factor(sigma);
+  SparseColumns sum = stored_;
   for (int c = 0; c < problem.contact_count(); ++c)
     for (int j = 0; j < problem.contact_rows(c); ++j)
       for (int i = 0; i < problem.contact_rows(c); ++i)
@@ -29,9 +28,9 @@ bool ShiftedDelassus::factor() {
 }
 
 void ShiftedDelassus::solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  if (!dynamics_) return sum_.solve(b, x);
-  // Woodbury: x = Sigma (b - H (M + H^T Sigma H)^-1 H^T Sigma b).
   const FrictionProblem& problem = w_->problem();
+  if (!problem.has_dynamics) return sum_.solve(b, x);
+  // Woodbury: x = Sigma (b - H (M + H^T Sigma H)^-1 H^T Sigma b).
   scaled_.resize(b.size());
   for (int c = 0; c < problem.contact_count(); ++c) w_->put(scaled_, c, sigma[c] * w_->at(b, c));
   contact_to_body_impulse(problem.dynamics, problem.row_begin, scaled_, body_);

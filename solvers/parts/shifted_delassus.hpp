@@ -37,7 +37,6 @@ class ShiftedDelassus {
   void solve_once(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
   ContactOperator* w_ = nullptr;
-  bool dynamics_ = false;
   BodyMatrix bodies_;     ///< dynamics form
   SparseRows h_;          ///< dynamics form
   SparseColumns stored_;  ///< stored W

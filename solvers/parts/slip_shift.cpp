@@ -18,8 +18,7 @@ void Anderson::reset(int memory) {
 }
 
 void Anderson::step(Eigen::VectorXd& x, const Eigen::VectorXd& image) {
-  // The residual is G(x) - x. Differences of successive images G(x) and of successive residuals are
-  // kept in a ring of `memory` places.
+  // The differences are kept in a ring of `memory` places.
   residual_ = image - x;
   if (primed_) {
     if (count_ == 0) next_ = 0;

@@ -16,16 +16,14 @@ std::optional<StopReason> SolveBook::reason_to_stop(double error, bool is_enough
 }
 
 Solved SolveBook::closed(Impulses impulses, StopReason reason, double error) {
-  Solved solved;
-  solved.impulses = std::move(impulses);
-  solved.reason = reason;
-  solved.iterations = count_;
-  solved.own_residual = error;
-  solved.start_error = start_error_;
-  solved.end_error = error;
-  solved.startup_seconds = startup_;
-  solved.history = std::move(history_);
-  return solved;
+  return {.impulses = std::move(impulses),
+          .reason = reason,
+          .iterations = count_,
+          .own_residual = error,
+          .start_error = start_error_,
+          .end_error = error,
+          .startup_seconds = startup_,
+          .history = std::move(history_)};
 }
 
 bool Iteration::next() {

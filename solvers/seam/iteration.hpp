@@ -1,6 +1,5 @@
 #pragma once
-// The bookkeeping that backends share: budget, clock, when to evaluate the error, why to stop,
-// history.
+// The bookkeeping that backends share: when to evaluate the error, why to stop, history.
 
 #include <algorithm>
 #include <cmath>

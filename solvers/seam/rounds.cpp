@@ -23,11 +23,7 @@ void ReducedProblem::take(const FrictionProblem& problem) {
   Eigen::VectorXd whole_q;
   free_contact_velocity(problem, whole_q);
   // The contacts to keep, and the positions of their rows.
-  contact.clear();
-  row_begin.assign(1, 0);
-  friction.clear();
-  lambda_max.clear();
-  row.clear();
+  *this = {};
   problem_rows = problem.row_count();
   for (int c = 0; c < problem.contact_count(); ++c) {
     const double largest = largest_eigenvalue(diagonal[c]);

@@ -29,8 +29,6 @@ bool FclibStop::reached(const Impulses& r, double natural_map) {
   return value <= tolerance_ * (1.0 - stop_margin);
 }
 
-double Budget::aim() const { return fclib ? fclib->aim() : tolerance; }
-
 Budget Budget::after(int iterations, double seconds) const {
   Budget rest = *this;
   rest.max_iterations = std::max(0, max_iterations - iterations);

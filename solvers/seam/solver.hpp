@@ -99,7 +99,7 @@ struct Budget {
 
   /// The natural map to plan for [m/s]: the tolerance, or the natural map at which `fclib` expects
   /// its measure to be reached.
-  double aim() const;
+  double aim() const { return fclib ? fclib->aim() : tolerance; }
   /// The budget left after so many iterations and seconds; never negative.
   Budget after(int iterations, double seconds) const;
 };

@@ -104,7 +104,7 @@ TEST_CASE("sweeps that stand still get the time of eight Newton steps near the a
   constexpr double step = 1000.0, all = 1e9;
   const Budget budget{.tolerance = 1e-6};
   const auto ends_at = [&](double error, double at_most) {
-    SweepStopRule slow(step, at_most, budget);
+    const auto slow = sweep_stop_rule(step, at_most, budget);
     int sweeps = 100;
     while (!slow(sweeps, error)) sweeps += 100;
     return sweeps;

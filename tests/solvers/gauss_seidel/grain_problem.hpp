@@ -93,9 +93,9 @@ struct Wide {
   bool fits;
 
   explicit Wide(const FrictionProblem& problem, bool single = false,
-                const GroupKernels& kernels = group_kernels(), int threads = 1) {
+                const GroupKernels& kernels = *all_group_kernels().front(), int threads = 1) {
     team.resize(threads);
-    sweep.use_team(&team);
+    plan.use_team(&team);
     plan.prepare(problem);
     sweep.use_kernels(kernels);
     fits = sweep.prepare(problem);

@@ -218,7 +218,7 @@ TEST_CASE("single: open contacts that rest change no bit") {
     if (random.below(3) == 0)
       problem.dynamics.bias[problem.row_begin[c]] = random.uniform(0.0, 9.0);
   for (const auto& [threads, is_conjugate] : {std::pair(1, true), {2, false}}) {
-    Wide rests(problem, true, group_kernels(), threads), all(problem, true);
+    Wide rests(problem, true, *all_group_kernels().front(), threads), all(problem, true);
     all.sweep.allow_rests(false);
     for (Wide* sweep : {&rests, &all}) sweep->sweep.start_search();
     int resting = 0;

@@ -1,5 +1,3 @@
-#include "solvers/parts/regular_contact.hpp"
-
 #include <cmath>
 
 #include "platform/random.hpp"
