@@ -267,8 +267,8 @@ std::vector<Displacement> cell_means(std::span<const Displacement> displacements
   std::vector<Displacement> means;
   for (int cell = 0; cell < columns * rows; ++cell) {
     if (count[cell] == 0.0) continue;
-    const double x = r.x_lo + (cell % columns + 0.5) * width,
-                 z = r.z_lo + (cell / columns + 0.5) * height;
+    const int row = cell / columns, column = cell % columns;
+    const double x = r.x_lo + (column + 0.5) * width, z = r.z_lo + (row + 0.5) * height;
     means.push_back({Vec3(x, 0.0, z), sum[cell] / count[cell]});
   }
   return means;

@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
+#include "platform/clock.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
+
+Progress::Progress(Style style)
+    : Progress(style, std::cerr, [watch = Stopwatch()] { return watch.seconds(); }) {}
+
+Progress::Progress(Style style, std::ostream& out, std::function<double()> clock)
+    : line_(style, out), clock_(std::move(clock)) {}
 
 void Progress::show(std::string_view label, double total, const StepRecord& record,
                     double rms_velocity) {

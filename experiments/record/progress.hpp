@@ -1,14 +1,14 @@
 #pragma once
-// The progress of a run, as one StatusLine.
+// The progress of a run: one line that rewrites itself on a terminal, a line every ten seconds
+// elsewhere, nothing when quiet.
 
 #include <functional>
-#include <iostream>
+#include <iosfwd>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "experiments/step/step_record.hpp"
-#include "platform/clock.hpp"
 #include "platform/status_line.hpp"
 
 namespace ballast {
@@ -17,11 +17,10 @@ class Progress {
  public:
   using Style = StatusLine::Style;
 
+  /// Writes to stderr.
+  explicit Progress(Style style);
   /// `clock`: seconds from any origin, increasing.
-  explicit Progress(
-      Style style, std::ostream& out = std::cerr,
-      std::function<double()> clock = [watch = Stopwatch()] { return watch.seconds(); })
-      : line_(style, out), clock_(std::move(clock)) {}
+  Progress(Style style, std::ostream& out, std::function<double()> clock);
 
   /// To be called after each step of the phase `label`, which lasts `total` [s]; NaN where that is
   /// not known. Each call counts as a step; rate and time left are measured from the first call of
