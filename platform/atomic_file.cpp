@@ -57,6 +57,24 @@ fs::path replaceable(const fs::path& name) {
   return kind == fs::file_type::regular || kind == fs::file_type::not_found ? file : fs::path();
 }
 
+const std::string signature = "process ";
+
+/// True for the text of a lock. A lock that has just been made is not signed yet.
+bool is_lock_text(std::string_view text) { return text.empty() || text.starts_with(signature); }
+
+bool is_lock(const fs::path& file) {
+  return file.extension() == ".lock" && is_file(file) && is_lock_text(read_whole_file(file));
+}
+
+/// True where the file under that name is still the one that was opened: the last holder of the
+/// lock may have removed it meanwhile.
+bool is_current(int descriptor, const fs::path& file) {
+  struct stat opened {
+  }, named{};
+  return fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path target) : name_(std::move(target)), target_(replaceable(name_)) {
@@ -75,7 +93,6 @@ AtomicFile::AtomicFile(fs::path target) : name_(std::move(target)), target_(repl
 
 AtomicFile::~AtomicFile() {
   if (file_) std::fclose(file_);
-  // Without commit() the target stays as it was.
   if (!neighbour_.empty()) std::remove(neighbour_.c_str());
 }
 
@@ -134,19 +151,6 @@ void create_folder(const fs::path& folder) {
     throw Error(folder.string() + ": cannot make the folder: there is a file of that name");
 }
 
-namespace {
-
-const std::string signature = "process ";
-
-/// True for the text of a lock. A lock that has just been made is not signed yet.
-bool is_lock_text(std::string_view text) { return text.empty() || text.starts_with(signature); }
-
-bool is_lock(const fs::path& file) {
-  return file.extension() == ".lock" && is_file(file) && is_lock_text(read_whole_file(file));
-}
-
-}  // namespace
-
 void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> known) {
   for (const auto& [name, words] : known) {
     const fs::path mark = folder / name;
@@ -157,29 +161,13 @@ void require_own_folder(const fs::path& folder, std::initializer_list<OwnMark> k
   if (!is_folder(folder)) return;
   // A process killed before its first file is whole leaves folders, a .tmp file and a lock.
   constexpr auto skipping = fs::directory_options::skip_permission_denied;
-  const bool has_files = std::any_of(fs::recursive_directory_iterator(folder, skipping),
-                                     fs::recursive_directory_iterator(), [](const auto& entry) {
-                                       return !fs::is_directory(entry.symlink_status()) &&
-                                              entry.path().extension() != ".tmp" &&
-                                              !is_lock(entry.path());
-                                     });
-  if (!has_files) return;
-  throw Error(folder.string() +
-              ": holds files that are no results of this kind: give a folder that is new or empty");
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, skipping))
+    if (!fs::is_directory(entry.symlink_status()) && entry.path().extension() != ".tmp" &&
+        !is_lock(entry.path()))
+      throw Error(folder.string() +
+                  ": holds files that are no results of this kind: give a "
+                  "folder that is new or empty");
 }
-
-namespace {
-
-/// True where the file under that name is still the one that was opened: the last holder of the
-/// lock may have removed it meanwhile.
-bool is_current(int descriptor, const fs::path& file) {
-  struct stat opened {
-  }, named{};
-  return fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 &&
-         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
-}
-
-}  // namespace
 
 bool briefly(double seconds_waited) { return seconds_waited < 3.0; }
 

@@ -9,13 +9,9 @@
 
 namespace ballast {
 
-void CsvWriter::separate() {
+void CsvWriter::add(std::string_view cell) {
   if (in_row_) text_ += ',';
   in_row_ = true;
-}
-
-void CsvWriter::add(std::string_view cell) {
-  separate();
   // A cell in quotes may hold commas; a quote in it is written twice.
   const bool is_quoted = cell.find_first_of(",\"\n\r") != std::string_view::npos;
   std::string text = one_line(cell, ' ');
@@ -23,19 +19,9 @@ void CsvWriter::add(std::string_view cell) {
   text_ += is_quoted ? '"' + text + '"' : text;
 }
 
-void CsvWriter::add(double value, int digits) {
-  separate();
-  text_ += printed("%.*g", digits, value);
-}
+void CsvWriter::add(double value, int digits) { add(printed("%.*g", digits, value)); }
 
-std::string number_cell(double value, int digits) {
-  return std::isfinite(value) ? printed("%.*g", digits, value) : "";
-}
-
-void CsvWriter::add(long value) {
-  separate();
-  text_ += std::to_string(value);
-}
+void CsvWriter::add(long value) { add(std::to_string(value)); }
 
 void CsvWriter::end_row() {
   text_ += '\n';
@@ -45,6 +31,10 @@ void CsvWriter::end_row() {
 void CsvWriter::add_row(std::span<const std::string> cells) {
   for (const std::string& cell : cells) add(cell);
   end_row();
+}
+
+std::string number_cell(double value, int digits) {
+  return std::isfinite(value) ? printed("%.*g", digits, value) : "";
 }
 
 CsvReader::CsvReader(const std::filesystem::path& file)

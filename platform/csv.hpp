@@ -25,8 +25,6 @@ class CsvWriter {
   std::string take() { return std::exchange(text_, {}); }
 
  private:
-  void separate();
-
   std::string text_;
   bool in_row_ = false;
 };
@@ -39,8 +37,6 @@ class CsvReader {
  public:
   /// Throws Error when the file cannot be read.
   explicit CsvReader(const std::filesystem::path& file);
-  CsvReader(const CsvReader&) = delete;
-  CsvReader& operator=(const CsvReader&) = delete;
 
   /// Goes to the next row; false after the last.
   bool next();

@@ -2,9 +2,8 @@
 // The part of HDF5's C interface that records and problem files need, without its header. Every
 // failure is an Error that begins with the file and names the dataset; HDF5 itself prints nothing.
 //
-// H5Cpp, which Debian has too, is not used: it wraps neither a driver of our own nor the switch
-// that leaves times of day out, so half of the writer would be C all the same; its header costs 0.3
-// s in each includer (this one: none of HDF5's), and its library is one more package.
+// H5Cpp is not used: it wraps neither a driver of our own nor the switch that leaves times of day
+// out, so half of the writer would be C all the same, and its header costs 0.3 s in each includer.
 
 #include <cstdint>
 #include <filesystem>
@@ -26,7 +25,6 @@ class Hdf5Id {
     if (id_ >= 0) close_(id_);
   }
   Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Hdf5Id& operator=(Hdf5Id&&) = delete;
   operator std::int64_t() const { return id_; }
   /// Closes the handle at once; returns a negative number when that fails.
   int close() { return close_(std::exchange(id_, -1)); }

@@ -59,6 +59,9 @@ struct MemoryFile : Descriptor {
   }
 };
 
+/// The status as a shell reports it, from waitpid()'s `how`.
+int status_of(int how) { return WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how); }
+
 /// Ends an answer or the words of an exception: a child that dies on the way leaves less.
 constexpr std::string_view whole_answer = "\x1bwhole answer\x1b", whole_words = "\x1bits words\x1b";
 
@@ -135,13 +138,6 @@ ChildProcess::~ChildProcess() {
 void ChildProcess::send(int signal) const {
   if (child_ > 0) kill(child_, signal);
 }
-
-namespace {
-
-/// The status as a shell reports it, from waitpid()'s `how`.
-int status_of(int how) { return WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how); }
-
-}  // namespace
 
 bool ChildProcess::collect(bool waits) {
   if (child_ < 0) return true;
@@ -231,14 +227,10 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
     dprintf(STDERR_FILENO, "cannot be started: %s", std::strerror(error));
     _exit(127);
   });
-  ProgramResult result;
-  result.timed_out = !child.ends_within(seconds);
+  const bool timed_out = !child.ends_within(seconds);
   child.send(SIGKILL);
   child.ends_within(1e9);
-  result.status = child.status();
-  result.output = output.text();
-  result.errors = errors.text();
-  return result;
+  return {timed_out, child.status(), output.text(), errors.text()};
 }
 
 std::unique_ptr<ChildProcess> start_program(const fs::path& program,

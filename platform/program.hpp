@@ -23,8 +23,8 @@ struct ChildResult {
 /// Runs `work` in a forked child and waits for the bytes that it returns (platform/pack.hpp makes
 /// and reads them), at most `max_seconds` of wall clock; then the child is killed. Only an answer
 /// that arrived whole counts, whatever the exit code says (Debian's Ipopt can die with code 0). The
-/// child prints nothing. `is_cancelled`, if not empty, is called here
-/// twenty times a second; true ends the time. Throws Error when no process can be made.
+/// child prints nothing. `is_cancelled`, if not empty, is called here twenty times a second; true
+/// ends the time. Throws Error when no process can be made.
 ChildResult run_in_child(double max_seconds, const std::function<std::string()>& work,
                          const std::function<bool()>& is_cancelled = {});
 

@@ -49,11 +49,9 @@ std::vector<std::string> split(std::string_view text, char separator) {
 }
 
 bool is_plain(std::string_view text, std::string_view also) {
-  const auto is_letter_or_digit = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-  };
-  return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
-    return is_letter_or_digit(c) || also.find(c) != also.npos;
+  return !text.empty() && std::ranges::all_of(text, [&](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+           also.find(c) != also.npos;
   });
 }
 

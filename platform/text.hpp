@@ -30,13 +30,8 @@ size_t edit_distance(std::string_view a, std::string_view b);
 template <typename Words>
 std::string joined(const Words& words) {
   std::string list;
-  bool first = true;
-  for (const auto& word : words) {
-    if (!first) list += ", ";
-    list += word;
-    first = false;
-  }
-  return list;
+  for (const auto& word : words) list.append(", ").append(word);
+  return list.empty() ? list : list.substr(2);
 }
 
 /// The name of an enumerator; `names` has one for each, in their order. Otherwise "unknown".

@@ -1,7 +1,5 @@
 #include "platform/worker_team.hpp"
 
-#include <algorithm>
-
 #include "platform/clock.hpp"
 
 namespace ballast {

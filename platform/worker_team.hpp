@@ -119,27 +119,16 @@ void run_parts(WorkerTeam* team, int parts, const Task& task) {
 }
 
 /// Calls task(begin, end) for ranges of `together` numbers, the last one shorter, that cover [0,
-/// count). They do not depend on who works. Each of `others` is called beside them, begun first.
-template <typename Task, typename... Others>
+/// count). They do not depend on who works. `beside`, if given, is called beside them, begun first.
+template <typename Task, typename... Beside>
 void run_ranges(WorkerTeam* team, int count, int together, const Task& task,
-                const Others&... others) {
-  constexpr int first = sizeof...(others);
-  const int parts = first + (count + together - 1) / together;
-  run_parts(team, parts, [&](int part) {
-    // The others are spread over the parts, so that each is the first part of a member.
-    int range = part;
-    bool is_range = true;
-    [[maybe_unused]] int other = 0;
-    [[maybe_unused]] const auto meet = [&](const auto& task_beside) {
-      const int place = other++ * parts / first;
-      range -= place < part;
-      if (place != part) return;
-      is_range = false;
-      task_beside();
-    };
-    (meet(others), ...);
-    const int begin = range * together;
-    if (is_range) task(begin, begin + std::min(together, count - begin));
+                const Beside&... beside) {
+  constexpr int first = sizeof...(beside);  // the part of the first range
+  static_assert(first <= 1);
+  run_parts(team, first + (count + together - 1) / together, [&](int part) {
+    if (part < first) return (beside(), ...);
+    const int begin = (part - first) * together;
+    task(begin, begin + std::min(together, count - begin));
   });
 }
 

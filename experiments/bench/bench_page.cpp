@@ -71,9 +71,9 @@ std::vector<std::string> words_of(const std::string& line) {
 BenchStage stage_of(const std::string& line) {
   const size_t colon = line.find(": ");
   const std::vector<std::string> head = words_of(line.substr(0, colon));
-  const auto turns = head.size() == 2 ? parsed<int>(head[1].substr(1)) : std::nullopt;
-  if (colon == std::string::npos || !turns || head[1][0] != 'x' || *turns < 1 ||
-      !is_plain(head[0], "_-"))
+  const bool has_turns = head.size() == 2 && head[1].starts_with('x');
+  const auto turns = has_turns ? parsed<int>(head[1].substr(1)) : std::nullopt;
+  if (colon == std::string::npos || !turns || *turns < 1 || !is_plain(head[0], "_-"))
     throw PageError("'" + line + "': expected NAME xTURNS: WORDS");
   const std::vector<std::string> words = words_of(line.substr(colon + 2));
   if (words.empty()) throw PageError("'" + line + "': has no command");
@@ -144,8 +144,7 @@ void add_comparison(std::span<const CompareRow> rows, double shift, const char* 
     if (times.rows() == 0) continue;
     const char* const start = tried.start == StartKind::warm ? " warm" : "";
     for (Eigen::Index s = 0; s < times.cols(); ++s) {
-      const std::string name =
-          tried.solvers[static_cast<size_t>(s)] + start + printed(" to %g, ", tried.tolerance);
+      const std::string name = tried.solvers[s] + start + printed(" to %g, ", tried.tolerance);
       const auto is_solved = (times.col(s).array() < unsolved).cast<double>();
       numbers[name + "solved"] = 100.0 * is_solved.mean();
       numbers[name + "cases solved"] = is_solved.sum();

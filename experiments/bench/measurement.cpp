@@ -10,7 +10,6 @@
 #include "experiments/page/markdown.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -25,12 +24,11 @@ std::string in_digits(double value) { return printed("%.4g", value); }
 Measurement measurement_of(const std::string& group, const std::string& name,
                            const std::string& unit, std::vector<double> values) {
   if (values.empty()) throw std::invalid_argument("no value of " + group + "/" + name);
-  const double count = static_cast<double>(values.size());
   return {group,
           name,
           unit,
           quantile(values, 0.5),
-          std::accumulate(values.begin(), values.end(), 0.0) / count,
+          std::accumulate(values.begin(), values.end(), 0.0) / values.size(),
           quantile(values, 0.25),
           quantile(values, 0.75),
           static_cast<long>(values.size())};
@@ -39,8 +37,8 @@ Measurement measurement_of(const std::string& group, const std::string& name,
 void write_bench_result(const std::filesystem::path& folder, const std::string& kind,
                         const std::string& command, const std::vector<Measurement>& measurements) {
   create_folder(folder);
-  Json json = Json::parse(
-      Manifest("bench " + kind, {command}, "").text());  // program, machine, time of day
+  // program, machine, time of day
+  Json json = Json::parse(Manifest("bench " + kind, {command}, "").text());
   json.erase("resumed");
   json.erase("summary");
   json["kind"] = kind;
@@ -86,10 +84,9 @@ std::string bench_ratio_table(const BenchResult& a, const BenchResult& b) {
     return r.commit.substr(0, 12) + " (" + r.cpu + "), " + r.kind;
   };
   const auto find = [](const BenchResult& r, const Measurement& m) {
-    return std::find_if(r.measurements.begin(), r.measurements.end(),
-                        [&](const Measurement& other) {
-                          return other.full_name() == m.full_name() && other.unit == m.unit;
-                        });
+    return std::ranges::find_if(r.measurements, [&](const Measurement& other) {
+      return other.full_name() == m.full_name() && other.unit == m.unit;
+    });
   };
   page::Table table{.head = {"measurement", "unit", "A", "B", "B/A"},
                     .is_number = {false, false, true, true, true}};

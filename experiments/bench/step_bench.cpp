@@ -5,11 +5,9 @@
 #include <map>
 #include <memory>
 #include <stdexcept>
-#include <tuple>
 
 #include "experiments/measure/curve_fit.hpp"
 #include "experiments/measure/wall_cycles.hpp"
-#include "experiments/run/run.hpp"
 #include "experiments/step/step_record.hpp"
 #include "experiments/step/time_step.hpp"
 #include "platform/clock.hpp"
@@ -250,19 +248,16 @@ std::pair<int, int> tiles_for(long grains, int of_tile) {
   return {nx, std::max(1, static_cast<int>(std::lround(tiles / nx)))};
 }
 
-std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesystem::path& cache,
-                                          const ScalingOptions& options,
-                                          const std::function<void(const ScalingPoint&)>& said) {
+void measure_scaling(const Scene& tile, const std::filesystem::path& cache,
+                     const ScalingOptions& options,
+                     const std::function<void(const ScalingPoint&)>& take) {
   require_backends(tile);  // here, for the exit code of one that is missing
-  std::vector<ScalingPoint> points;
   for (const int grains : options.grains)
     for (const int threads : options.threads) {
-      ScalingPoint point;
-      point.threads = threads;
-      std::tie(point.nx, point.ny) = tiles_for(grains, tile.grains->count);
-      Scene scene = tiled_scene(tile, point.nx, point.ny);
+      const auto [nx, ny] = tiles_for(grains, tile.grains->count);
+      Scene scene = tiled_scene(tile, nx, ny);
       scene.solver.threads = std::ranges::max(options.threads);  // while it is deposited
-      point.grains = scene.grains->count;
+      ScalingPoint point{threads, nx, ny, static_cast<double>(scene.grains->count), {}};
       const auto in_child = [&](const std::function<std::string()>& work) {
         constexpr double day = 86400.0;  // [s]
         const ChildResult child = run_in_child(day, work);
@@ -282,10 +277,8 @@ std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesyst
       Unpacker unpacker(answer, "bench scaling: a child's answer");
       carry(unpacker, point.measured);
       unpacker.finish();
-      points.push_back(std::move(point));
-      said(points.back());
+      take(point);
     }
-  return points;
 }
 
 Scene bench_scene(const std::string& name, const std::vector<std::string>& overrides) {

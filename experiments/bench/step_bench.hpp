@@ -67,8 +67,7 @@ std::vector<BenchStep> measure_steps(const Scene& scene, PreparedRun start, long
                                      int threads);
 
 /// Medians and means by phase of the step, counters and accuracy; once for all steps and once for
-/// those of each state of the wall (active: moves outward; passive: inward; jammed: slower than 2 %
-/// of its fastest). Group "<threads> threads, all".
+/// those of each state of the wall (wall_state()). Group "<threads> threads, all".
 std::vector<Measurement> step_measurements(const Scene& scene, const std::vector<BenchStep>& steps,
                                            int threads);
 
@@ -94,10 +93,10 @@ struct ScalingPoint {
 std::pair<int, int> tiles_for(long grains, int of_tile);
 
 /// Measures boxes of tiles (tiled_scene()) that have about the wanted grains. Each is deposited and
-/// then measured in child processes of at most a day, so that its memory is its own. `said` is
+/// then measured in child processes of at most a day, so that its memory is its own. `take` is
 /// called with each result. Throws Error where a child fails: out of memory, out of time.
-std::vector<ScalingPoint> measure_scaling(const Scene& tile, const std::filesystem::path& cache,
-                                          const ScalingOptions& options,
-                                          const std::function<void(const ScalingPoint&)>& said);
+void measure_scaling(const Scene& tile, const std::filesystem::path& cache,
+                     const ScalingOptions& options,
+                     const std::function<void(const ScalingPoint&)>& take);
 
 }  // namespace ballast

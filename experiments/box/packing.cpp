@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <iostream>
-#include <limits>
 
 #include "experiments/step/time_step.hpp"
 #include "platform/atomic_file.hpp"
@@ -28,17 +27,17 @@ Scene stage_scene(const Scene& scene, BoxStage stage) {
   return staged;
 }
 
-class Depositor {
- public:
-  Depositor(const Scene& scene, const Rain& rain, const fs::path& part,
-            const DepositProgress& progress, Packing& packing, const Packing* tile)
-      : scene_(scene),
-        rain_(rain),
-        part_(part),
-        progress_(progress),
-        packing_(packing),
-        tile_(tile),
-        fall_time_(std::sqrt(2.0 * fall_height() / deposit_gravity(scene).norm())) {}
+/// deposit() with its arguments.
+struct Depositor {
+  const Scene& scene;
+  const Rain& rain;
+  const fs::path& part;
+  const DepositProgress& progress;
+  Packing& packing;
+  const Packing* tile;
+  const double fall_time = std::sqrt(2.0 * fall_height() / deposit_gravity(scene).norm());  // [s]
+  BoxStage stage = BoxStage::rain;
+  double rms_velocity = 0.0;
 
   bool run() {
     // Every stage starts from the last state of the stage before. A stopped deposit continues
@@ -48,123 +47,111 @@ class Depositor {
     //
     // Without a pressure of the lid there is no press. In a tiled box the rain is the fall of
     // grains into the seams between the copies.
-    const DepositSpec& spec = scene_.deposit;
+    const DepositSpec& spec = scene.deposit;
     if (!continue_part()) start();
-    if (stage_ == BoxStage::rain) {
+    if (stage == BoxStage::rain) {
       if (!steps(spec.max_time)) return false;
       end_rain();
     }
-    if (stage_ == BoxStage::press) {
+    if (stage == BoxStage::press) {
       if (!steps(spec.lid_time)) return false;
       // The pressed lid marks the height of the packing; then it is raised.
-      packing_.deposit.top = packing_.state.pose[lid()].position.z();
+      packing.deposit.top = packing.state.pose[lid()].position.z();
       enter(BoxStage::settle);
     }
     if (!steps(spec.settle_time)) return false;
-    packing_.phase = "packing";
-    packing_.deposit.rest_velocity = rms_velocity_;
+    packing.phase = "packing";
+    packing.deposit.rest_velocity = rms_velocity;
     return true;
   }
 
- private:
   bool continue_part() {
-    if (!path_exists(part_)) return false;
-    packing_ = read_checkpoint(part_);
-    if (packing_.key != packing_key(scene_)) return false;
-    for (const BoxStage stage : {BoxStage::rain, BoxStage::press, BoxStage::settle})
-      if (packing_.phase == name_of(stage)) stage_ = stage;
+    if (!path_exists(part)) return false;
+    packing = read_checkpoint(part);
+    if (packing.key != packing_key(scene)) return false;
+    for (const BoxStage begun : {BoxStage::rain, BoxStage::press, BoxStage::settle})
+      if (packing.phase == name_of(begun)) stage = begun;
     return true;
   }
 
   void start() {
-    packing_ = {packing_key(scene_), name_of(stage_), {}, {}, {}};
-    packing_.deposit.lid = 2.0 * rain_.height;  // out of the way
-    box_system(scene_, rain_, stage_, packing_.deposit.lid, &packing_.state);
-    if (tile_) place_copies(scene_, tile_->state, packing_.state);
+    packing = {packing_key(scene), name_of(stage), {}, {}, {}};
+    packing.deposit.lid = 2.0 * rain.height;  // out of the way
+    box_system(scene, rain, stage, packing.deposit.lid, &packing.state);
+    if (tile) place_copies(scene, tile->state, packing.state);
   }
 
-  size_t lid() const { return rain_.grains.size() + wall_lid; }
+  size_t lid() const { return rain.grains.size() + wall_lid; }
 
   /// Begins a stage, whose time counts from zero. To press, the lid is placed on the highest
   /// vertex; to settle, it is raised to its final height. It is at rest there.
-  void enter(BoxStage stage) {
-    stage_ = stage;
-    packing_.phase = name_of(stage);
-    packing_.state.time = 0.0;
-    packing_.state.step = 0;
-    packing_.deposit.lid =
-        packing_.deposit.top + (stage == BoxStage::settle ? scene_.drive.lid_raise : 0.0);
-    packing_.state.pose[lid()].position = Vec3(0, 0, packing_.deposit.lid);
-    packing_.state.velocity[lid()].setZero();
+  void enter(BoxStage next) {
+    stage = next;
+    packing.phase = name_of(stage);
+    packing.state.time = 0.0;
+    packing.state.step = 0;
+    packing.deposit.lid =
+        packing.deposit.top + (stage == BoxStage::settle ? scene.drive.lid_raise : 0.0);
+    packing.state.pose[lid()].position = Vec3(0, 0, packing.deposit.lid);
+    packing.state.velocity[lid()].setZero();
   }
 
   void end_rain() {
     if (!rests())
-      throw Error("deposit: after deposit.max_time = " + std::to_string(scene_.deposit.max_time) +
-                  " s the grains still move at " + std::to_string(rms_velocity_) +
+      throw Error("deposit: after deposit.max_time = " + std::to_string(scene.deposit.max_time) +
+                  " s the grains still move at " + std::to_string(rms_velocity) +
                   " m/s rms: raise deposit.max_time or deposit.rest_velocity");
-    packing_.deposit.rain_time = packing_.state.time;
-    const MechanicalSystem system = box_system(scene_, rain_, BoxStage::rain, packing_.deposit.lid);
-    packing_.deposit.top = packing_top(system, packing_.state);
-    enter(scene_.deposit.lid_pressure_weight > 0.0 ? BoxStage::press : BoxStage::settle);
+    packing.deposit.rain_time = packing.state.time;
+    const MechanicalSystem system = box_system(scene, rain, BoxStage::rain, packing.deposit.lid);
+    packing.deposit.top = packing_top(system, packing.state);
+    enter(scene.deposit.lid_pressure_weight > 0.0 ? BoxStage::press : BoxStage::settle);
   }
 
   bool rests() const {
     // the packing cannot be at rest before the highest grain has fallen
-    return packing_.state.time > fall_time_ && rms_velocity_ < scene_.deposit.rest_velocity;
+    return packing.state.time > fall_time && rms_velocity < scene.deposit.rest_velocity;
   }
 
   /// The fall from the top of the rain, or into a seam, which is as wide as a grain.
   double fall_height() const {
-    if (!tile_) return rain_.height;
+    if (!tile) return rain.height;
     double widest = 0.0;
-    for (const BodySpec& grain : rain_.grains)
+    for (const BodySpec& grain : rain.grains)
       widest = std::max(widest, 2.0 * grain.shape->circumradius());
     return widest;
   }
 
   /// Steps the current stage for `duration`, the rain only until it rests. False: interrupted.
   bool steps(double duration) {
-    const MechanicalSystem system = box_system(scene_, rain_, stage_, packing_.deposit.lid);
-    const Scene staged = stage_scene(scene_, stage_);
+    const MechanicalSystem system = box_system(scene, rain, stage, packing.deposit.lid);
+    const Scene staged = stage_scene(scene, stage);
     TimeStepper stepper(system, staged, -1);
     Stopwatch since_saved;
     // needed where the last step of the stage was saved, so that the loop makes none
-    rms_velocity_ = grain_rms_velocity(system, packing_.state);
+    rms_velocity = grain_rms_velocity(system, packing.state);
     const long last = std::lround(duration / staged.step);
-    while (packing_.state.step < last) {
-      const StepRecord record = stepper.step(packing_.state, packing_.memory);
-      rms_velocity_ = grain_rms_velocity(system, packing_.state);
-      const bool keep_going = progress_(stage_, rms_velocity_, record);
+    while (packing.state.step < last) {
+      const StepRecord record = stepper.step(packing.state, packing.memory);
+      rms_velocity = grain_rms_velocity(system, packing.state);
+      const bool keep_going = progress(stage, rms_velocity, record);
       // The state at which the rain rests is never saved within the rain: a deposit continued from
       // there would make another step.
-      if (stage_ == BoxStage::rain && rests()) break;
-      // A checkpoint is written at intervals and on a stop; the same call continues from it.
-      if (!keep_going || since_saved.seconds() > scene_.record.checkpoint_seconds) {
-        write_checkpoint(part_, packing_);
+      if (stage == BoxStage::rain && rests()) break;
+      if (!keep_going || since_saved.seconds() > scene.record.checkpoint_seconds) {
+        write_checkpoint(part, packing);
         since_saved.restart();
       }
       if (!keep_going) return false;
     }
     return true;
   }
-
-  const Scene& scene_;
-  const Rain& rain_;
-  const fs::path& part_;
-  const DepositProgress& progress_;
-  Packing& packing_;
-  const Packing* tile_;
-  const double fall_time_;  // [s]; after the members from which it is computed
-  BoxStage stage_ = BoxStage::rain;
-  double rms_velocity_ = 0.0;
 };
 
 }  // namespace
 
 bool deposit(const Scene& scene, const Rain& rain, const fs::path& part,
              const DepositProgress& progress, Packing& packing, const Packing* tile) {
-  return Depositor(scene, rain, part, progress, packing, tile).run();
+  return Depositor{scene, rain, part, progress, packing, tile}.run();
 }
 
 bool read_packing(const fs::path& file, const std::string& key, Packing& packing) {
@@ -207,7 +194,6 @@ bool load_or_deposit(const Scene& scene, const Rain& rain, const PackingOptions&
   // no lock is needed: a packing that is there is complete
   if (find()) return true;
   create_folder(order.cache);
-  // one process deposits, the others wait for it
   const FileLock lock(file.string() + ".lock", [&](double waited) {
     if (waited == 0.0) say("waiting for the packing that another run deposits");
     return order.keep_going();
@@ -224,8 +210,7 @@ bool load_or_deposit(const Scene& scene, const Rain& rain, const PackingOptions&
       ")");
   Progress progress(order.style);
   // the duration of the rain is not known beforehand
-  const double end[] = {std::numeric_limits<double>::quiet_NaN(), scene.deposit.lid_time,
-                        scene.deposit.settle_time};
+  const double end[] = {std::nan(""), scene.deposit.lid_time, scene.deposit.settle_time};
   const auto show = [&](BoxStage stage, double velocity, const StepRecord& record) {
     progress.show(name_of(stage), end[static_cast<int>(stage)], record, velocity);
     return order.keep_going();

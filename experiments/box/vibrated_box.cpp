@@ -13,11 +13,10 @@
 namespace ballast {
 namespace {
 
-/// The user's meshes in turn; the sizes come from the size classes.
+/// The user's meshes in turn; sizes and their order are as for generated grains.
 std::vector<PrincipalShape> grains_from_meshes(const GrainsSpec& spec) {
   std::vector<PrincipalShape> meshes, grains;
   for (const Polyhedron& mesh : spec.meshes) meshes.push_back(to_principal_frame(mesh));
-  // sizes and their order as for generated grains; shapes in turn
   const auto sized =
       make_grains(spec.count, spec.distribution, spec.size_convention, spec.shape, spec.seed);
   for (int k = 0; k < spec.count; ++k) {
@@ -31,7 +30,6 @@ std::vector<PrincipalShape> grains_from_meshes(const GrainsSpec& spec) {
 }
 
 /// Centres of non-overlapping bounding spheres, drawn at random, large ones first: a loose rain.
-/// Grows the height when it is full.
 std::vector<Vec3> scatter(const std::vector<double>& radii, double length, double width,
                           double& height, Random& random) {
   std::vector<size_t> order(radii.size());

@@ -57,9 +57,8 @@ MechanicalSystem box_system(const Scene& scene, const Rain& rain, BoxStage stage
 Vec3 deposit_gravity(const Scene& scene);
 
 /// Key of everything a packing depends on: grains and what was in the user's meshes, box, deposit,
-/// lid, correction, format version.
-/// Not of the drive, its solver, step or friction: runs that differ in these alone start from the
-/// same packing.
+/// lid, correction, format version. Not of the drive, its solver, step or friction: runs that
+/// differ in these alone start from the same packing.
 std::string packing_key(const Scene& scene);
 
 /// Where the solid fraction is taken: from the floor to the packing's top before the lid was

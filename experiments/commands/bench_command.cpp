@@ -64,15 +64,13 @@ Measurements bench_step(const BenchRequest& request) {
 
 Measurements bench_scaling(const BenchRequest& request) {
   const Scene tile = bench_scene(request.scene, request.overrides);
-  const auto said = [](const ScalingPoint& p) {
+  Measurements measurements;
+  measure_scaling(tile, request.packing_cache, request.scaling, [&](const ScalingPoint& p) {
     std::cout << p.nx << " x " << p.ny << " tiles, " << p.grains << " grains, " << p.threads
               << " threads: " << 1e-3 * p.value("step") << " us a grain and step, "
               << p.value("memory") << " B a grain" << std::endl;
-  };
-  const auto points = measure_scaling(tile, request.packing_cache, request.scaling, said);
-  Measurements measurements;
-  for (const ScalingPoint& p : points)
     measurements.insert(measurements.end(), p.measured.begin(), p.measured.end());
+  });
   return measurements;
 }
 

@@ -50,23 +50,6 @@ Rule bounded(double low, bool is_open, double high, const std::string& expected)
   };
 }
 
-}  // namespace
-
-const Rule required = [](CLI::Option& option) { option.required(); };
-Rule between(double low, double high) {
-  return bounded(low, false, high, printed("from %.10g to %.10g", low, high));
-}
-Rule above(double low) { return bounded(low, true, greatest, printed("> %g", low)); }
-Rule at_least(double low) { return bounded(low, false, greatest, printed(">= %g", low)); }
-Rule excludes(const std::string& other) {
-  return [=](CLI::Option& option) { option.excludes(other); };
-}
-Rule needs(const std::string& other) {
-  return [=](CLI::Option& option) { option.needs(other); };
-}
-
-namespace {
-
 void print_failure(std::ostream& err, const std::string& what) {
   std::string line = one_line(what, ' ');
   while (line.ends_with(' ')) line.pop_back();
@@ -89,16 +72,13 @@ void add_word(CLI::App& app, Word& word) {
     const auto turn = [on = *flag, to = !name.starts_with("--no-")] { *on = to; };
     option = app.add_flag_callback(name, turn, word.meaning);
   } else {
-    const auto add = [&](auto& value) {
-      option = app.add_option(name, value, word.meaning)->capture_default_str();
-    };
-    const auto add_kept = [&](auto& kept) {
-      if constexpr (std::is_same_v<decltype(kept), TextParser&>)
-        add(kept.text);
+    const auto add = [&]<class Kept>(Kept& kept) {
+      if constexpr (std::is_same_v<Kept, TextParser>)
+        return app.add_option(name, kept.text, word.meaning);
       else
-        add(*kept);
+        return app.add_option(name, *kept, word.meaning);
     };
-    std::visit(add_kept, word.value);
+    option = std::visit(add, word.value)->capture_default_str();
     if (std::holds_alternative<std::string*>(word.value) ||
         std::holds_alternative<std::filesystem::path*>(word.value))
       option->check(names_something, "");
@@ -184,6 +164,19 @@ std::string complaint(const CLI::App& program, int argc, const char* const* argv
 }
 
 }  // namespace
+
+const Rule required = [](CLI::Option& option) { option.required(); };
+Rule between(double low, double high) {
+  return bounded(low, false, high, printed("from %.10g to %.10g", low, high));
+}
+Rule above(double low) { return bounded(low, true, greatest, printed("> %g", low)); }
+Rule at_least(double low) { return bounded(low, false, greatest, printed(">= %g", low)); }
+Rule excludes(const std::string& other) {
+  return [=](CLI::Option& option) { option.excludes(other); };
+}
+Rule needs(const std::string& other) {
+  return [=](CLI::Option& option) { option.needs(other); };
+}
 
 std::string own_command() {
   std::vector<std::string> words = process_arguments();

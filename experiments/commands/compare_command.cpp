@@ -15,7 +15,7 @@
 #include "experiments/compare/live_page.hpp"
 #include "experiments/compare/ranking.hpp"
 #include "experiments/compare/stored_comparison.hpp"
-#include "experiments/run/run_folder.hpp"
+#include "experiments/run/run.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/interrupt.hpp"
@@ -121,9 +121,8 @@ ExitCode diff(const DiffOptions& options) {
   for (const auto& [change, count] : counts)
     add_to_list(summary, std::to_string(count) + " " + name_of(change));
   std::cout << before.program << " -> " << after.program << ": " << summary << std::endl;
-  const auto common = changes.size() - static_cast<size_t>(counts[Change::only_before]) -
-                      static_cast<size_t>(counts[Change::only_after]);
-  if (common == 0) throw Error("compare diff: the two have no solve in common");
+  const size_t alone = counts[Change::only_before] + counts[Change::only_after];
+  if (changes.size() == alone) throw Error("compare diff: the two have no solve in common");
   if (counts[Change::lost] + counts[Change::slower] > 0)
     throw Error(printed("compare diff: %d solves are lost and %d slower", counts[Change::lost],
                         counts[Change::slower]));
@@ -224,16 +223,12 @@ ExitCode compare_live(CompareRequest& options) {
 
 /// Throws Error with the reasons of the cases that could not be read.
 void require_readable(std::span<const CompareRow> rows, size_t cases) {
-  std::string reasons;
-  size_t unreadable = 0;
-  for (const CompareRow& row : rows) {
-    if (row.verdict != Verdict::unreadable) continue;
-    ++unreadable;
-    add_to_list(reasons, row.note);
-  }
-  if (unreadable > 0)
-    throw Error(printed("compare: %zu of %zu cases could not be read: ", unreadable, cases) +
-                reasons);
+  std::vector<std::string> reasons;
+  for (const CompareRow& row : rows)
+    if (row.verdict == Verdict::unreadable) reasons.push_back(row.note);
+  if (!reasons.empty())
+    throw Error(printed("compare: %zu of %zu cases could not be read: ", reasons.size(), cases) +
+                joined(reasons));
 }
 
 ExitCode compare(CompareRequest& options) {
@@ -290,8 +285,11 @@ ExitCode compare(CompareRequest& options) {
   return ExitCode::ok;
 }
 
-std::vector<Word> live_words(LiveOptions& live) {
+/// The cases and, before the words that exclude --live, those that need it.
+std::vector<Word> first_words(CompareRequest& options) {
+  LiveOptions& live = options.live;
   return {
+      {"cases", &options.cases, "Files, folders, patterns, known:..., pile:..., stress:..."},
       {"--live SCENE", &live.scene,
        "Instead of cases: simulates a scene from one start with each backend and tolerance"},
       {"--set KEY=VALUE", &live.overrides, "Overrides one value of that scene: dotted.key=value",
@@ -357,12 +355,8 @@ Command compare_command() {
        merging_command("ranking", "Ranks backends: what each solves, how fast; a page and a table",
                        "results/ranking", "index.html", write_ranking),
        collect_command()}};
-  // before the words that exclude --live
-  std::vector<Word> words = live_words(options->live);
-  words.insert(words.begin(), {"cases", &options->cases,
-                               "Files, folders, patterns, known:..., pile:..., stress:..."});
-  words.insert(words.end(), command.words.begin(), command.words.end());
-  command.words = std::move(words);
+  const std::vector<Word> first = first_words(*options);
+  command.words.insert(command.words.begin(), first.begin(), first.end());
   return command;
 }
 

@@ -10,7 +10,6 @@
 #include "experiments/commands/command.hpp"
 #include "experiments/export/state_export.hpp"
 #include "experiments/record/checkpoint.hpp"
-#include "experiments/record/recorder.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/view/still.hpp"
 #include "experiments/view/view_page.hpp"

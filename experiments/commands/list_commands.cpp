@@ -171,8 +171,7 @@ ExitCode convert(const ConvertOptions& options) {
   for (const std::string& word : options.problems)
     for (FoundProblem& found : find_problems(word)) problems.push_back(std::move(found));
   const bool is_file = names_a_file(options, problems.size());
-  size_t failed = 0;
-  std::string reasons;
+  std::vector<std::string> reasons;      // of the problems that are not converted
   std::map<fs::path, fs::path> written;  // the source of each target
   for (const FoundProblem& found : problems) {
     fs::path target = is_file ? options.output : options.output / found.name;
@@ -186,14 +185,13 @@ ExitCode convert(const ConvertOptions& options) {
       std::string why = error.what();
       if (why.find(found.file.string()) == std::string::npos)
         why = found.file.string() + ": " + why;
-      ++failed;
-      add_to_list(reasons, why);
+      reasons.push_back(why);
     }
   }
-  if (failed > 0)
-    throw Error(
-        printed("convert: %zu of %zu problems are not converted: ", failed, problems.size()) +
-        reasons);
+  if (!reasons.empty())
+    throw Error(printed("convert: %zu of %zu problems are not converted: ", reasons.size(),
+                        problems.size()) +
+                joined(reasons));
   return ExitCode::ok;
 }
 

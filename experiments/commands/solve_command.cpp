@@ -201,20 +201,18 @@ nlohmann::ordered_json as_json(const SolvedFile& s, const SolveOptions& options)
 /// Returns ok when every file is solved. Otherwise prints one line, and returns time_limit where
 /// time limits are the only reason, else failure.
 ExitCode verdict(const std::vector<SolvedFile>& solved) {
-  std::string failures;
-  size_t count = 0;
+  std::vector<std::string> failures;
   bool only_time = true;
   for (const SolvedFile& s : solved) {
     if (s.run.is_solved()) continue;
-    ++count;
     only_time = only_time && (s.refused == "out_of_time" ||
                               (s.refused.empty() && s.run.solved.reason == StopReason::time_limit));
-    add_to_list(failures, s.refused.empty() ? s.file + " (" + s.words + ")"
-                                            : s.words + " (" + s.refused + ")");
+    failures.push_back(s.refused.empty() ? s.file + " (" + s.words + ")"
+                                         : s.words + " (" + s.refused + ")");
   }
-  if (count == 0) return ExitCode::ok;
-  std::cerr << "ballast: " << count << " of " << solved.size()
-            << " problems are not solved: " << failures << '\n';
+  if (failures.empty()) return ExitCode::ok;
+  std::cerr << "ballast: " << failures.size() << " of " << solved.size()
+            << " problems are not solved: " << joined(failures) << '\n';
   return only_time ? ExitCode::time_limit : ExitCode::failure;
 }
 

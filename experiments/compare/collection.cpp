@@ -35,8 +35,7 @@ void round_entries(DynamicsForm& dynamics) {
   round(dynamics.bias);
 }
 
-/// The name of a made problem's file: "pile-c100-d0.3-R1-f0.3..0.3-a0.8-s1.hdf5". It begins with
-/// the family, so that family_of_file() returns it.
+/// A name whose family_of_file() is the family: "pile-c100-d0.3-R1-f0.3..0.3-a0.8-s1.hdf5".
 std::string made_name(const std::string& family, const std::string& case_name) {
   const std::string rest = case_name.substr(std::min(case_name.find('-'), case_name.size()));
   return made_plain(family + rest, "-._=+") + ".hdf5";
@@ -54,22 +53,21 @@ class Collection {
 
   ExitCode add(const CollectedRun& wanted) {
     const fs::path source = options_.folder / "runs" / wanted.name;
-    fs::path problems = source / "problems";
-    if (wanted.scene.empty()) {
+    const bool is_made = wanted.scene.empty();
+    const fs::path problems = source / (is_made ? "problems" : "capture");
+    if (is_made)
       make_problems(wanted, problems);
-    } else {
-      problems = source / "capture";
-      if (const ExitCode code = run_scene(wanted, source); code != ExitCode::ok) return code;
-    }
+    else if (const ExitCode code = run_scene(wanted, source); code != ExitCode::ok)
+      return code;
     if (!is_folder(problems)) return ExitCode::ok;
     const std::string label = wanted.name.substr(wanted.family.size());  // "-25-1"
     const std::vector<FoundProblem> all = find_problems(problems.string());
-    if (!wanted.scene.empty() && static_cast<long>(all.size()) != wanted.steps)
+    if (!is_made && static_cast<long>(all.size()) != wanted.steps)
       throw Error(source.string() + printed(": has %zu steps, the list asks for %ld: remove it",
                                             all.size(), wanted.steps));
     for (const FoundProblem& found : all) {
       std::string name = found.name.string();
-      if (!wanted.scene.empty() && !label.empty()) name = label.substr(1) + '-' + name;
+      if (!is_made && !label.empty()) name = label.substr(1) + '-' + name;
       keep(wanted.family, name, found.file);
       if (InterruptGuard::requested()) return ExitCode::failure;
     }

@@ -60,9 +60,8 @@ struct CollectionOptions {
 };
 
 /// Makes the missing parts of the folder. `told` is called before each run. The first run that does
-/// not reach its end stops the work: its code is returned, and nothing of it is lost. Problems
-/// without contacts, made problems of which only W is known, and problems equal to an earlier one
-/// are left out. Throws Error.
+/// not reach its end stops the work: its code is returned, and nothing of it is lost. Leaves out
+/// problems without contacts, equal to an earlier one, or made with W alone. Throws Error.
 ExitCode make_collection(const CollectionOptions& options, std::span<const CollectedRun> runs,
                          const std::function<void(const CollectedRun&)>& told);
 

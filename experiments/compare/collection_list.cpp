@@ -12,30 +12,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One list of `vary`: each text is a value, combined with the values of all other lists.
-using Variation = std::vector<std::string>;
+using Texts = std::vector<std::string>;
 
-/// An entry of the list.
 struct Entry {
   std::string name, scene, steps, part = "small";
-  std::vector<std::string> set, made;
-  std::vector<Variation> vary;
+  Texts set, made;
+  std::vector<Texts> vary;
 };
 
-std::vector<Variation> read_vary(TomlTable& table) {
+std::vector<Texts> read_vary(TomlTable& table) {
   table.know("vary");
   constexpr const char* expected = "expected lists of texts, [[\"a.key=1\", \"a.key=2\"]]";
-  std::vector<Variation> axes;
+  std::vector<Texts> axes;
   const toml::node* node = table.as_it_stands().get("vary");
   if (!node) return axes;
   if (!node->is_array()) table.fail("vary", expected);
   for (const toml::node& list : *node->as_array()) {
-    Variation& axis = axes.emplace_back();
+    Texts& axis = axes.emplace_back();
     if (!list.is_array() || list.as_array()->empty()) table.fail("vary", expected);
-    for (const toml::node& text : *list.as_array())
+    for (const toml::node& text : *list.as_array()) {
       axis.push_back(text.is_string() ? text.as_string()->get() : "");
-    for (const std::string& text : axis)
-      if (text.find('=') == std::string::npos) table.fail("vary", expected);
+      const std::string first = split(axis.back(), ' ').front();  // it names the run
+      if (first.find('=') == std::string::npos) table.fail("vary", expected);
+    }
   }
   return axes;
 }
@@ -58,7 +57,7 @@ Entry read_entry(TomlTable& table, const std::vector<Entry>& before) {
   table.read("part", &entry.part, one_of({"small", "large"}));
   for (std::string& text : table.texts("set")) entry.set.push_back(std::move(text));
   entry.made = table.texts("made");
-  if (std::vector<Variation> axes = read_vary(table); !axes.empty()) entry.vary = std::move(axes);
+  if (std::vector<Texts> axes = read_vary(table); !axes.empty()) entry.vary = std::move(axes);
   if (entry.scene.empty() == entry.made.empty())
     table.fail("scene", "expected either a scene or `made`, problems that are made");
   if (entry.made.empty() && entry.steps.empty()) table.text("steps");  // throws, as it is missing

@@ -5,7 +5,6 @@
 #include <map>
 #include <set>
 #include <span>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -30,10 +29,27 @@ namespace fs = std::filesystem;
 /// With more rows a dense eigenvalue problem takes longer than some of the solves.
 constexpr int most_rows_for_eigenvalues = 1000;
 
-/// Continues a hash with plain numbers: first their number of bytes, then the bytes.
-void add_to_hash(std::uint64_t& hash, const void* data, size_t bytes) {
-  hash = fnv1a(std::string_view(reinterpret_cast<const char*>(&bytes), sizeof bytes), hash);
-  hash = fnv1a(std::string_view(static_cast<const char*>(data), bytes), hash);
+/// Returns CaseFacts::content, a hash of all bits of the problem, its start and its scale.
+std::string content_of(const FrictionProblem& problem, const Impulses& start, double scale) {
+  std::uint64_t hash = fnv1a("");
+  // of each list first its number of bytes, then its bytes
+  const auto add_one = [&](const auto& list) {
+    const size_t bytes = static_cast<size_t>(list.size()) * sizeof(*list.data());
+    hash = fnv1a({reinterpret_cast<const char*>(&bytes), sizeof bytes}, hash);
+    hash = fnv1a({reinterpret_cast<const char*>(list.data()), bytes}, hash);
+  };
+  const auto add = [&](const auto&... lists) { (..., add_one(lists)); };
+  add(problem.row_begin, problem.friction);
+  const DynamicsForm& d = problem.dynamics;
+  if (problem.has_dynamics) add(d.dof_begin, d.mass, d.body_a, d.body_b, d.h, d.v_free, d.bias);
+  if (problem.has_delassus) {
+    const SparseRows& w = problem.delassus.w;
+    add(std::span(w.outerIndexPtr(), static_cast<size_t>(w.outerSize() + 1)),
+        std::span(w.innerIndexPtr(), static_cast<size_t>(w.nonZeros())),
+        std::span(w.valuePtr(), static_cast<size_t>(w.nonZeros())), problem.delassus.q);
+  }
+  add(start, std::span(&scale, 1));
+  return hash_text(hash);
 }
 
 double rank_deficiency(const FrictionProblem& problem, int touched_dofs) {
@@ -63,21 +79,17 @@ std::set<int> touched_bodies(const FrictionProblem& problem) {
 
 /// The largest over the smallest mass, or lambda_max(W_cc), of those > 0; 1 without any.
 double mass_ratio(const FrictionProblem& problem, const std::set<int>& touched) {
-  double least = HUGE_VAL, most = 0.0;
-  const auto look_at = [&](double value) {
-    if (!(value > 0.0)) return;
-    least = std::min(least, value);
-    most = std::max(most, value);
-  };
+  std::vector<double> sizes;
   // the mass is its block's first entry: translations come first
   for (const int body : touched)
-    look_at(problem.dynamics.mass[static_cast<size_t>(problem.dynamics.mass_begin[body])]);
-  if (!problem.has_dynamics) {
-    std::vector<Eigen::Matrix3d> blocks;
-    delassus_diagonal(problem, blocks);
-    for (const Eigen::Matrix3d& block : blocks) look_at(largest_eigenvalue(block));
-  }
-  return most > 0.0 ? most / least : 1.0;
+    sizes.push_back(problem.dynamics.mass[static_cast<size_t>(problem.dynamics.mass_begin[body])]);
+  std::vector<Eigen::Matrix3d> blocks;
+  if (!problem.has_dynamics) delassus_diagonal(problem, blocks);
+  for (const Eigen::Matrix3d& block : blocks) sizes.push_back(largest_eigenvalue(block));
+  std::erase_if(sizes, [](double size) { return !(size > 0.0); });
+  if (sizes.empty()) return 1.0;
+  const auto [least, most] = std::ranges::minmax(sizes);
+  return most / least;
 }
 
 LoadedCase load_captured(const fs::path& file) {
@@ -92,8 +104,10 @@ LoadedCase load_captured(const fs::path& file) {
   return loaded;
 }
 
-/// Adds the reference of the file, if there is one.
-LoadedCase with_reference(LoadedCase loaded, const fs::path& file) {
+/// Loads a file's problem, and its reference if there is one.
+LoadedCase load_file(const fs::path& file) {
+  if (!path_exists(file)) throw Error(file.string() + ": no such file");
+  LoadedCase loaded = is_captured(file) ? load_captured(file) : load_case(read_problem(file));
   if (const fs::path answer = reference_of(file); path_exists(answer))
     loaded.exact = read_solution(answer, loaded.problem);
   return loaded;
@@ -102,11 +116,7 @@ LoadedCase with_reference(LoadedCase loaded, const fs::path& file) {
 CompareCase file_case(const fs::path& file) {
   CompareCase made{.name = file.filename().string(),
                    .family = family_of_file(file.filename().string()),
-                   .load =
-                       [file] {
-                         if (!path_exists(file)) throw Error(file.string() + ": no such file");
-                         return with_reference(load_case(read_problem(file)), file);
-                       },
+                   .load = [file] { return load_file(file); },
                    .word = file.string()};
   try {
     if (!is_captured(file)) return made;
@@ -116,7 +126,6 @@ CompareCase file_case(const fs::path& file) {
     const std::string run = folder.filename().string(), phase = read_captured(file).phase;
     made.name = run + "/" + file.stem().string();
     made.family = run + (phase == "none" ? "" : ", " + phase);
-    made.load = [file] { return with_reference(load_captured(file), file); };
     made.has_bodies = true;
   } catch (const std::exception&) {
     // load() throws for a file that cannot be read: it is one row, and the others go on.
@@ -124,8 +133,7 @@ CompareCase file_case(const fs::path& file) {
   return made;
 }
 
-// Problems that are made on the spot: manufactured ones with known solutions, piles, and those that
-// break solvers.
+// Problems made on the spot: with known solutions, piles, and those that break solvers.
 
 /// "kind:what,name=value,...". Every setting must be taken before finish().
 class MadeWord {
@@ -152,13 +160,12 @@ class MadeWord {
   template <typename Number>
   void take(const char* name, Number& value, double least = 0.0,
             double most = std::is_integral_v<Number> ? 1e6 : 1e9) {
-    const auto found = values_.find(name);
-    if (found == values_.end()) return;
-    if (!(found->second >= least)) fail(std::string(name) + ": too small");
-    if (!(found->second <= most)) fail(name + printed(": at most %.10g", most));
-    value =
-        static_cast<Number>(std::is_integral_v<Number> ? std::round(found->second) : found->second);
-    values_.erase(found);
+    const auto taken = values_.extract(name);
+    if (!taken) return;
+    const double given = taken.mapped();
+    if (given < least) fail(std::string(name) + ": too small");
+    if (given > most) fail(name + printed(": at most %.10g", most));
+    value = static_cast<Number>(std::is_integral_v<Number> ? std::round(given) : given);
   }
   /// Throws Error if a setting was not taken: there is no such setting.
   void finish() const {
@@ -226,18 +233,17 @@ CompareCase pile_case(const PileSettings& s) {
 
 /// pile: takes every setting from the word. pile:family draws all of them from successive seeds.
 void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
+  PileSettings settings;
   if (word.what() == "family") {
-    struct Family {
-      int most = 1000;
-      std::uint64_t seed = 1;
-    } family;
-    word.take("contacts", family.most, 2);
-    const auto make = [](const Family& f) { return pile_case(random_pile(f.seed, f.most)); };
-    add_seeded(word, family, make, cases);
+    settings.contacts = 1000;  // the most
+    word.take("contacts", settings.contacts, 2);
+    const auto make = [](const PileSettings& s) {
+      return pile_case(random_pile(s.seed, s.contacts));
+    };
+    add_seeded(word, settings, make, cases);
     return;
   }
   if (!word.what().empty()) word.fail(word.what() + ": expected family or name=value");
-  PileSettings settings;
   word.take("contacts", settings.contacts, 1);
   word.take("redundancy", settings.redundancy);
   if (settings.redundancy >= 1.0) word.fail("redundancy: expected a number below 1");
@@ -251,7 +257,6 @@ void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
   add_seeded(word, settings, pile_case, cases);
 }
 
-/// Adds all stress problems.
 void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
   if (word.what() != "all") word.fail("expected stress:all");
   word.finish();
@@ -272,11 +277,8 @@ fs::path reference_of(const fs::path& problem_file) {
 }
 
 std::string family_of_file(const std::string& file_name) {
-  std::string family = file_name.substr(0, file_name.find('-'));
-  family = family.substr(0, family.find('.'));
-  while (!family.empty() &&
-         (std::isdigit(static_cast<unsigned char>(family.back())) || family.back() == '_'))
-    family.pop_back();
+  std::string family = file_name.substr(0, file_name.find_first_of("-."));
+  family.erase(family.find_last_not_of("0123456789_") + 1);
   return family.empty() ? file_name : family;
 }
 
@@ -298,26 +300,6 @@ std::vector<CompareCase> compare_cases(const std::vector<std::string>& words) {
   for (CompareCase& c : cases)
     if (const int count = ++seen[c.name]; count > 1) c.name += " (" + std::to_string(count) + ")";
   return cases;
-}
-
-std::string content_of(const FrictionProblem& problem, const Impulses& start, double scale) {
-  std::uint64_t hash = fnv1a("");
-  const auto add = [&](const auto&... lists) {
-    (...,
-     add_to_hash(hash, lists.data(), static_cast<size_t>(lists.size()) * sizeof(*lists.data())));
-  };
-  add(problem.row_begin, problem.friction);
-  const DynamicsForm& d = problem.dynamics;
-  if (problem.has_dynamics) add(d.dof_begin, d.mass, d.body_a, d.body_b, d.h, d.v_free, d.bias);
-  if (problem.has_delassus) {
-    const SparseRows& w = problem.delassus.w;
-    add(std::span(w.outerIndexPtr(), static_cast<size_t>(w.outerSize() + 1)),
-        std::span(w.innerIndexPtr(), static_cast<size_t>(w.nonZeros())),
-        std::span(w.valuePtr(), static_cast<size_t>(w.nonZeros())), problem.delassus.q);
-  }
-  add(start);
-  add_to_hash(hash, &scale, sizeof scale);
-  return hash_text(hash);
 }
 
 LoadedCase load_case(FrictionProblem problem, double velocity_scale, Impulses warm_start) {

@@ -1,6 +1,5 @@
 #pragma once
-// The problems of a comparison: files, folders, patterns and made problems, each with the facts
-// that the figures need.
+// The problems of a comparison, stored or made, with the facts that the figures need.
 
 #include <filesystem>
 #include <functional>
@@ -19,9 +18,8 @@ struct CaseFacts {
                                  ///< lower bound from the unknowns, or NaN where only W is known
   double mass_ratio = 1.0;  ///< largest over smallest mass of the bodies in contact; where only W
                             ///< is known, largest over smallest lambda_max(W_cc)
-  double velocity_scale =
-      1.0;  ///< errors are relative to it [m/s]: rms of q over rows, or g h (captured, stress:)
-  std::string content;  ///< key of the problem, its start and its scale
+  double velocity_scale = 1.0;  ///< of errors [m/s]: rms of q over rows; g h (captured, stress:)
+  std::string content;          ///< key of the problem, its start and its scale
 };
 
 struct LoadedCase {
@@ -30,8 +28,7 @@ struct LoadedCase {
   CaseFacts facts;
   Impulses exact;  ///< a solution at 1e-9, where find_exact() found one; as loaded: the impulses in
                    ///< a file's reference (reference_of), which may be no solution
-  /// Says where a contact is, for readers who look for the worst one: "contact 12", with bodies and
-  /// gap where they are known.
+  /// Says where a contact is: "contact 12", with bodies and gap where they are known.
   std::function<std::string(int)> describe_contact;
 };
 
@@ -47,8 +44,7 @@ struct CompareCase {
 
 /// Each word is one of
 ///   a file (.hdf5, .h5, .dat), a folder (all such files in and below it), a pattern with * ? [ ]
-///   known:..., pile:..., stress:...: problems made on the spot (ballast compare --help lists the
-///   settings)
+///   known:..., pile:..., stress:...: problems made on the spot (settings: ballast compare --help)
 /// Files are sorted; repeated names are numbered: "a.dat (2)". A missing or broken file is a case
 /// whose load() throws. Throws Error for words that name no problem: a pattern without matches, a
 /// folder without problems, another kind of file, an unknown setting.
@@ -58,9 +54,6 @@ std::vector<CompareCase> compare_cases(const std::vector<std::string>& words);
 /// the rms of q when that is 0. Throws InvalidProblem.
 LoadedCase load_case(FrictionProblem problem, double velocity_scale = 0.0,
                      Impulses warm_start = {});
-
-/// Returns CaseFacts::content, a hash of all bits of the problem, its start and its scale.
-std::string content_of(const FrictionProblem& problem, const Impulses& start, double scale);
 
 /// Returns the HDF5 file of a problem's reference, from whose /solution/r distances are measured:
 /// collection/problems/shaken/a.hdf5 -> collection/references/shaken/a.exact.

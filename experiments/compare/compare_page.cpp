@@ -1,10 +1,8 @@
 #include "experiments/compare/compare_page.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -14,7 +12,6 @@
 #include "experiments/page/plot.hpp"
 #include "experiments/run_page/report.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
 
@@ -34,7 +31,6 @@ page::Text time_of(double seconds) {
   return seconds < 1.0 ? page::quantity(1e3 * seconds, "ms") : page::quantity(seconds, "s");
 }
 
-/// The backends side by side.
 page::Table backends_table(const CompareTable& table) {
   // a count of 0 leaves its cell empty
   const auto if_any = [](int count) { return count == 0 ? page::Text() : page::exact(count); };
@@ -80,13 +76,6 @@ page::Table failures_table(std::span<const CompareRow> rows) {
   return result;
 }
 
-page::Text lede(std::span<const CompareRow> rows) {
-  return page::words("compare.lede", {{"solvers", different(rows, &CompareRow::solver)},
-                                      {"problems", different(rows, &CompareRow::case_name)},
-                                      {"solves", page::exact(rows.size())},
-                                      {"measure", rows.empty() ? "" : name_of(rows[0].measure)}});
-}
-
 /// The summary of a comparison in its manifest, with its options.
 page::Table options_table(const RunData& data) {
   page::Table table{.is_facts = true};
@@ -108,7 +97,12 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
     backends.add(page::Subheading{table.heading});
     backends.add(backends_table(table));
   }
-  page::Page page{.title = "Solvers of frictional contact, compared", .lede = {lede(tried)}};
+  page::Page page{.title = "Solvers of frictional contact, compared"};
+  page.lede = {
+      page::words("compare.lede", {{"solvers", different(tried, &CompareRow::solver)},
+                                   {"problems", different(tried, &CompareRow::case_name)},
+                                   {"solves", page::exact(tried.size())},
+                                   {"measure", tried.empty() ? "" : name_of(tried[0].measure)}})};
   page.add(backends);
   page.add({"failures", "What must not happen", {failures_table(rows)}});
   // The page makes these sections itself, in the reader's browser.
@@ -124,15 +118,10 @@ page::Page compare_page(const RunData& data, std::span<const CompareRow> rows,
   return page;
 }
 
-/// In the order in which they depend on each other.
-constexpr std::array modules = {"rows.js",      "statistics.js", "asks.js",      "views.js",
-                                "histories.js", "details.js",    "comparison.js"};
-
 /// The most points of all histories together that a page can hold.
 constexpr size_t most_points = 25000;
 
-/// The command that makes a row again, as far as the options of the comparison are known. The page
-/// fills in the names in braces.
+/// The command that makes a row again. The page fills in the names in braces.
 std::string again(const RunData& data, const CompareRow& row) {
   std::string command =
       "ballast compare {case} --solvers {solver} --tolerances {tolerance} --starts {start} "
@@ -144,8 +133,7 @@ std::string again(const RunData& data, const CompareRow& row) {
   return command + " --output results/again";
 }
 
-/// The least errors so far: seconds (prepare included) and error in turn, with the digits that a
-/// chart shows.
+/// The least errors so far: seconds (with prepare) and error in turn, in the digits of a chart.
 std::string history_text(const CompareRow& row, size_t limit) {
   std::vector<double> seconds, errors;
   for (const HistoryPoint& point : row.history) {
@@ -210,14 +198,16 @@ page::Answers comparison_answers(const RunData& data, std::span<const CompareRow
   json["more"] = {{"word", words}, {"can_view", can_view}, {"history", histories}};
   page::Answers answers{.is_enabled = true};
   answers.data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (const char* name : modules) answers.modules.push_back(comparison_file(name));
+  for (const char* name : {"rows.js", "statistics.js", "asks.js", "views.js", "histories.js",
+                           "details.js", "comparison.js"})  // each uses those before it
+    answers.modules.push_back(comparison_file(name));
   return answers;
 }
 
 std::string compare_summary(std::span<const CompareRow> rows) {
   std::string text;
   for (const CompareTable& table : compare_tables(rows)) {
-    text += table.heading + ", " + std::to_string(table.cases) + " cases\n";
+    text += table.heading + ", " + std::to_string(table.cases.size()) + " cases\n";
     for (const BackendSummary& s : table.backends)
       text += printed(
           "  %-16s solved %4d   mean %10.4g ms (hides %d unsolved)   over fastest %8.3g   "
@@ -238,7 +228,6 @@ void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows
 
 RunData read_origin(const fs::path& folder) {
   RunData data;
-  data.folder = folder;
   const fs::path file = folder / "manifest.json";
   data.stored_manifest = std::make_shared<const Json>(json_object(read_whole_file(file), file));
   return data;
@@ -279,30 +268,29 @@ std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows) {
   const double limit = limit_of(rows);
   std::vector<CompareTable> tables;
   for (const auto& [what, cases] : groups) {
+    CompareTable& table = tables.emplace_back();
     std::map<std::string, Tally> tallies;
     for (const auto& [name, by_solver] : cases) {
+      std::map<std::string, RepeatedSolve>& solves = table.cases[name];
       double best = std::numeric_limits<double>::infinity();
-      for (const auto& [solver, repeats] : by_solver)
-        if (const RepeatedSolve solve = over_repeats(repeats); solve.solved)
-          best = std::min(best, solve.median);
-      for (const auto& [solver, repeats] : by_solver)
-        tallies[solver].add(over_repeats(repeats), best, limit);
+      for (const auto& [solver, repeats] : by_solver) {
+        const RepeatedSolve& solve = solves[solver] = over_repeats(repeats);
+        if (solve.solved) best = std::min(best, solve.median);
+      }
+      for (const auto& [solver, solve] : solves) tallies[solver].add(solve, best, limit);
     }
-    CompareTable& table = tables.emplace_back();
     table.heading = printed("Tolerance %g, %s start", -what.second, name_of(what.first));
     table.start = what.first;
     table.tolerance = -what.second;
-    table.cases = cases.size();
     for (auto& [solver, tally] : tallies) {
       tally.summary.solver = solver;
       tally.summary.mean_seconds = std::exp(statistics(tally.times).mean) - summary_shift;
       tally.summary.mean_ratio = std::exp(statistics(tally.ratios).mean);
       table.backends.push_back(std::move(tally.summary));
     }
-    std::stable_sort(
-        table.backends.begin(), table.backends.end(), [](const auto& a, const auto& b) {
-          return a.solved != b.solved ? a.solved > b.solved : a.mean_seconds < b.mean_seconds;
-        });
+    std::ranges::stable_sort(table.backends, {}, [](const BackendSummary& s) {
+      return std::pair(-s.solved, s.mean_seconds);
+    });
   }
   return tables;
 }

@@ -1,8 +1,8 @@
 #pragma once
-// The page of a comparison, compare.html; the functions that it shares with the page of a closed
-// loop; and the comparison in a few lines for a terminal.
+// The page of a comparison, what other pages share with it, and its summary for a terminal.
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,9 +19,8 @@ void write_compare_page(const std::filesystem::path& folder, std::span<const Com
 /// The table of backends as text for a terminal.
 std::string compare_summary(std::span<const CompareRow> rows);
 
-/// Returns the data and modules with which the page answers in the reader's browser
-/// (experiments/compare/answers): all rows, their histories, the command that makes a row again.
-/// Needs at least one row.
+/// The data and modules of the page's answers (experiments/compare/answers): all rows, their
+/// histories, the command that makes a row again. Needs at least one row.
 page::Answers comparison_answers(const RunData& data, std::span<const CompareRow> rows);
 
 /// Reads manifest.json of a folder. Throws Error where it is missing or holds no JSON object.
@@ -47,27 +46,27 @@ struct BackendSummary {
   std::string solver, law;
   int solved = 0, unsolved = 0, timeouts = 0, crashes = 0, unsupported = 0, no_solutions = 0,
       denied = 0;
-  double mean_seconds = 0.0;  ///< shifted geometric mean over all cases (summary_shift), in which
-                              ///< an unsolved case counts as the limit [s]
-  double mean_ratio = 0.0;    ///< the same mean of time over the fastest backend's time, over cases
-                              ///< that some backend solved; NaN: none
+  int tried() const { return solved + unsolved; }
+  double mean_seconds = not_known;  ///< shifted geometric mean over all cases (summary_shift), in
+                                    ///< which an unsolved case counts as the limit [s]
+  double mean_ratio = not_known;    ///< the same mean of time over the fastest backend's time, over
+                                    ///< cases that some backend solved; NaN: none
   double largest_spread = 0.0;  ///< (slowest - fastest)/median over the repeats of a solved case
 };
 
-/// All backends of one start and tolerance: most solved first, then fastest.
+/// All backends of one start and tolerance.
 struct CompareTable {
   std::string heading;  ///< "Tolerance 0.01, cold start"
   StartKind start = StartKind::cold;
   double tolerance = 0.0;
-  size_t cases = 0;
-  std::vector<BackendSummary> backends;
+  std::map<std::string, std::map<std::string, RepeatedSolve>> cases;  ///< by name, then by backend
+  std::vector<BackendSummary> backends;  ///< most solved first, then fastest
 };
 
 /// Shift of the geometric means [s]: the smaller, the more the tiny problems count.
 inline constexpr double summary_shift = 1e-3;
 
-/// Returns one table for each start and, loosest first, each tolerance among the rows.
-/// Unreadable cases are in none.
+/// One table for each start and, loosest first, tolerance of the rows, without unreadable cases.
 std::vector<CompareTable> compare_tables(std::span<const CompareRow> rows);
 
 /// Returns how many different backends, cases, ... the rows have.

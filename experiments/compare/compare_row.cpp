@@ -26,8 +26,7 @@ Enum by_name(const char* const (&names)[count], const std::string& name, const c
   throw std::invalid_argument("'" + name + "' is no " + what + "; there are: " + joined(names));
 }
 
-/// Calls f(name, member) for every column. This one list writes and reads the CSV, the JSON and the
-/// child's message.
+/// Calls f(name, member) for every column of the CSV, the JSON and the child's message.
 template <typename Row, typename F>
 void for_columns(Row& row, F&& f) {
   double seconds = row.seconds();     // a sum: a row that is read takes its parts
@@ -46,34 +45,27 @@ void for_columns(Row& row, F&& f) {
   f("seconds", seconds);              // prepare and solve, fastest run in the child
   f("prepare_seconds", row.prepare_seconds);
   f("solve_seconds", row.solve_seconds);
-  f("startup_seconds",
-    row.startup_seconds);  // not in the others: solver, processes, a foreign library's form
-  f("runs", row.runs);     // solves in the child
+  f("startup_seconds", row.startup_seconds);  // not in the others
+  f("runs", row.runs);                        // solves in the child
   f("iterations", row.iterations);
-  f("natural_map_rms", row.judged.natural_map_rms);          // [m/s]
-  f("natural_map_max", row.judged.natural_map_max);          // [m/s]
-  f("fclib", row.judged.fclib);                              // what Siconos prints
-  f("cone_violation", row.judged.cone_violation);            // [N s]
-  f("min_normal_velocity", row.judged.min_normal_velocity);  // [m/s]
-  f("worst", row.worst);                                     // contact of natural_map_max
-  f("velocity_distance",
-    row.distance
-        .velocity);  // of bodies, from a solution at 1e-9, over the velocity scale; nan: none
+  f("natural_map_rms", row.judged.natural_map_rms);               // [m/s]
+  f("natural_map_max", row.judged.natural_map_max);               // [m/s]
+  f("fclib", row.judged.fclib);                                   // what Siconos prints
+  f("cone_violation", row.judged.cone_violation);                 // [N s]
+  f("min_normal_velocity", row.judged.min_normal_velocity);       // [m/s]
+  f("worst", row.worst);                                          // contact of natural_map_max
+  f("velocity_distance", row.distance.velocity);                  // of bodies; nan: none
   f("contact_velocity_distance", row.distance.contact_velocity);  // of contacts, rms
   f("body_impulse_distance", row.distance.body_impulse);  // of H^T r, as a part of the solution's
-  f("wall_force_distance",
-    row.distance.wall_force);  // of the force on the driven wall, as a part of the solution's
-  f("statuses_wrong",
-    row.distance
-        .statuses);  // contacts whose status (open, stick, slip) is wrong; -1: no solution known
-  f("peak_memory_MB", row.peak_memory_MB);  // of the child
+  f("wall_force_distance", row.distance.wall_force);      // on the driven wall; the same
+  f("statuses_wrong", row.distance.statuses);             // of contacts; -1: no solution known
+  f("peak_memory_MB", row.peak_memory_MB);                // of the child
   f("contacts", row.facts.contacts);
   f("rows", row.facts.rows);
   f("dofs", row.facts.dofs);  // unknowns of bodies in contact; 0: only W is known
   f("rank_deficiency", row.facts.rank_deficiency);  // 1 - rank(W)/rows
-  f("mass_ratio",
-    row.facts.mass_ratio);  // of bodies in contact; where only W is known, of lambda_max(W_cc)
-  f("velocity_scale", row.facts.velocity_scale);  // [m/s]
+  f("mass_ratio", row.facts.mass_ratio);            // of bodies in contact
+  f("velocity_scale", row.facts.velocity_scale);    // [m/s]
   f("note", row.note);
   f("content", row.facts.content);  // of problem, start and scale
   f("key", row.key);                // of problem, backend, options and binary
@@ -173,11 +165,10 @@ CompareRow compare_row_of_json(const std::string& text, const std::string& file,
     row.history.clear();
     for_columns(row, [&](const char* name, auto& value) { take(json.at(name), value); });
     for (const Json& h : json.at("history")) {
-      HistoryPoint point;
+      HistoryPoint& point = row.history.emplace_back();
       take(h.at(0), point.iteration);
       take(h.at(1), point.seconds);
       take(h.at(2), point.error);
-      row.history.push_back(point);
     }
     require_possible(row);
     return row;

@@ -14,8 +14,7 @@ namespace ballast {
 
 /// The measure that a tolerance bounds.
 enum class Measure {
-  natural_map,  ///< the judge's scaled natural map, rms over contacts, relative to the case's
-                ///< velocity scale
+  natural_map,  ///< the judge's, scaled, rms over contacts, over the case's velocity scale
   fclib,        ///< ContactError::fclib: what Siconos prints
 };
 enum class StartKind { cold, warm };
@@ -31,8 +30,7 @@ constexpr const char* not_tried = "not tried: ";
 struct CompareRow {
   // the attempt
   std::string key, case_name, family, solver, law;
-  // the word of the command line for the case alone; in no file
-  std::string word;
+  std::string word;       ///< of the command line, for the case alone; in no file
   bool can_view = false;  ///< `ballast view WORD --solver SOLVER` shows where the answer is wrong
   Measure measure = Measure::natural_map;
   double tolerance = 0.0;

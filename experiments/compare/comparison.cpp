@@ -67,6 +67,11 @@ class Comparison {
   void try_case(const CompareCase& tried, int repeat) {
     const size_t pairs = options_.tolerances.size() * options_.solvers.size();
     std::vector<StartKind> starts = options_.starts;
+    // An unreadable case has one row, whatever is to be tried, and no file: it may be mended.
+    if (unreadable_.contains(tried.name)) {
+      done_ += pairs * starts.size();
+      return;
+    }
     CompareRow row;
     row.case_name = tried.name;
     row.family = tried.family;
@@ -76,24 +81,16 @@ class Comparison {
     row.word = tried.word;
     LoadedCase loaded;
     try {
-      if (unreadable_.contains(tried.name))
-        starts.clear();
-      else
-        loaded = tried.load();
+      loaded = tried.load();
     } catch (const std::exception& error) {
-      // The case has one row, whatever was to be tried on it. The row has no file, as the case may
-      // be mended.
-      starts.clear();
       unreadable_.insert(tried.name);
+      done_ += pairs * starts.size();
       row.verdict = Verdict::unreadable;
       row.note = error.what();
+      return add(std::move(row), false);
     }
     if (loaded.warm_start.size() == 0) std::erase(starts, StartKind::warm);
     done_ += pairs * (options_.starts.size() - starts.size());
-    if (row.verdict == Verdict::unreadable) {
-      add(std::move(row), false);
-      return;
-    }
     if (starts.empty()) return;
     find_exact(loaded, options_.exact_seconds, options_.folder / "exact");
     row.facts = loaded.facts;
@@ -127,8 +124,7 @@ class Comparison {
                        '|' + name_of(row.start) + '|' + numbers);
   }
 
-  /// A tighter tolerance is not tried where a looser one took all the time. Its row is a copy of
-  /// the looser one's, with a note.
+  /// The row of a tighter tolerance than one that took all the time: a copy of that, with a note.
   static CompareRow late_row(CompareRow looser, const CompareRow& row) {
     looser.note = not_tried + printed("out of time to %g already", looser.tolerance);
     looser.key = row.key;
@@ -136,8 +132,7 @@ class Comparison {
     return looser;
   }
 
-  /// Adds the stored row, or else solves the case and stores the row. Unsolved attempts are not
-  /// repeated.
+  /// Adds the stored row, or solves the case and stores it. Unsolved attempts are not repeated.
   void attempt(const LoadedCase& loaded, const ComparedSolver& solver, CompareRow row) {
     const std::string who = row.case_name + '|' + row.solver + '|' + name_of(row.start);
     const std::string identity = who + '|' + printed("%.17g", row.tolerance);
@@ -182,13 +177,11 @@ class Comparison {
     manifest.summary("repeats", options_.repeats);
     manifest.summary("blas", loaded_blas());
     manifest.summary("unreadable_cases", static_cast<double>(unreadable_.size()));
-    long solved = 0, denied = 0;
-    for (const CompareRow& row : rows_) {
-      solved += row.verdict == Verdict::solved;
-      denied += row.verdict == Verdict::denied;
-    }
-    manifest.summary("solved", static_cast<double>(solved));
-    manifest.summary("claims_that_the_judge_denies", static_cast<double>(denied));
+    const auto count = [&](Verdict verdict) {
+      return static_cast<double>(std::ranges::count(rows_, verdict, &CompareRow::verdict));
+    };
+    manifest.summary("solved", count(Verdict::solved));
+    manifest.summary("claims_that_the_judge_denies", count(Verdict::denied));
   }
 
   const std::vector<CompareCase>& cases_;
@@ -276,8 +269,7 @@ std::vector<ComparedSolver> parse_solvers(const std::string& list) {
   for (const std::string& name : split(list, ',')) {
     make_solver(name);  // throws for a wrong name
     const SolverEntry& entry = find_solver(name);
-    if (std::none_of(solvers.begin(), solvers.end(),
-                     [&](const ComparedSolver& s) { return s.name == name; }))
+    if (std::ranges::find(solvers, name, &ComparedSolver::name) == solvers.end())
       solvers.push_back({entry.name, entry.law, entry.make});
   }
   return solvers;
@@ -297,24 +289,21 @@ std::vector<ComparedSolver> external_solvers(const std::vector<std::string>& wor
 }
 
 std::vector<double> parse_tolerances(const std::string& list) {
-  std::vector<double> tolerances;
-  if (list == "none") return tolerances;
+  if (list == "none") return {};
+  std::set<double, std::greater<>> tolerances;
   for (const std::string& word : split(list, ',')) {
     const double value = parsed<double>(word).value_or(-1.0);
     if (!(value > 0.0) || !std::isfinite(value))
       throw std::invalid_argument("'" + word + "': expected a number > 0");
-    tolerances.push_back(value);
+    tolerances.insert(value);
   }
-  std::sort(tolerances.begin(), tolerances.end(), std::greater<>());
-  tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
-  return tolerances;
+  return {tolerances.begin(), tolerances.end()};
 }
 
 std::vector<StartKind> parse_starts(const std::string& list) {
   std::vector<StartKind> starts;
   for (const std::string& word : split(list, ','))
-    if (const StartKind start = start_of(word);
-        std::find(starts.begin(), starts.end(), start) == starts.end())
+    if (const StartKind start = start_of(word); std::ranges::find(starts, start) == starts.end())
       starts.push_back(start);
   return starts;
 }

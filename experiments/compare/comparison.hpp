@@ -1,6 +1,5 @@
 #pragma once
-// The comparison: cases x backends x tolerances x starts x repeats -> rows in a folder. It resumes
-// after an interrupt, a crash or a kill.
+// Cases x backends x tolerances x starts x repeats -> rows in a folder; resumes after any kill.
 
 #include <filesystem>
 #include <functional>
@@ -34,8 +33,7 @@ struct CompareOptions {
   std::vector<double> tolerances{1e-4, 1e-8};
   std::vector<StartKind> starts{StartKind::cold};  ///< warm only where a case has a warm start
   Measure measure = Measure::natural_map;
-  int repeats = 1;  ///< interleaved: every attempt once, then every attempt again; unsolved ones
-                    ///< are not repeated
+  int repeats = 1;  ///< interleaved: all attempts, then all again; unsolved ones are not repeated
   double max_seconds = 60.0;  ///< of one solve, prepare included
   /// Time to find a solution of each case, from which distances are measured; 0: no search.
   double exact_seconds = 0.0;
@@ -68,8 +66,7 @@ std::string loaded_blas();
 // The lists on the command lines of `ballast compare` and `ballast bench` -> settings. A wrong list
 // throws std::invalid_argument, which says what was expected.
 
-/// "pgs,nncg", "none", or "all": every backend that was built. Throws UnknownSolver or
-/// MissingSolver for a name.
+/// "pgs,nncg", "none", or "all": those that were built. Throws UnknownSolver, MissingSolver.
 std::vector<ComparedSolver> parse_solvers(const std::string& list);
 
 /// Solvers that are external programs (experiments/external). Throws std::invalid_argument, also

@@ -44,8 +44,7 @@ std::string packed(const Trajectory& trajectory) {
   return packer.bytes();
 }
 
-/// Unpacks bytes into a trajectory whose solver and limits are known. Throws Error that begins with
-/// `origin`.
+/// Unpacks what packed() made; solver and limits stay. Throws Error that begins with `origin`.
 void unpack(const std::string& bytes, const std::string& origin, Trajectory& trajectory) {
   Unpacker unpacker(bytes, origin);
   carry_trajectory(unpacker, trajectory);
@@ -55,11 +54,10 @@ void unpack(const std::string& bytes, const std::string& origin, Trajectory& tra
 
 /// The start of every backend.
 struct Start : PreparedRun {
-  std::string key;  ///< of its checkpoint's content
+  std::string key;  ///< of this program and of the checkpoint's content
 };
 
-/// Runs the scene with its own solver to the common start, in a folder of its own for each start.
-/// It is an ordinary run, which is resumed if it is there.
+/// Runs the scene with its own solver to the start: an ordinary run, in a folder of its own.
 Start make_start(const LiveOptions& options, const Scene& scene) {
   RunOptions run_options;
   run_options.scene = options.scene;
@@ -81,7 +79,7 @@ Start make_start(const LiveOptions& options, const Scene& scene) {
   Checkpoint checkpoint = read_checkpoint(folder.checkpoint());
   start.memory = std::move(checkpoint.memory);
   start.state = std::move(checkpoint.state);
-  start.key = content_key(read_whole_file(folder.checkpoint()));
+  start.key = binary_key() + '|' + content_key(read_whole_file(folder.checkpoint()));
   if (scene.grains)
     start.control_volume = box_control_volume(
         scene, Manifest::read(folder.manifest()).summary_number("packing_top_m"));
@@ -96,8 +94,7 @@ void append_frame(const MotionState& state, int grains, Trajectory& trajectory) 
   trajectory.positions.push_back(std::move(positions));
 }
 
-/// Runs in the child: steps until the end or the time limit. A backend that throws ends the
-/// trajectory there, with its own words.
+/// Runs in the child: steps until the end or the time limit.
 void step_on(const LiveOptions& options, Scene scene, Start start, const ComparedSolver& solver,
              Trajectory& trajectory) {
   scene.solver.name = solver.name;
@@ -150,15 +147,13 @@ void step_in_child(const LiveOptions& options, const Scene& scene, const Start& 
 
 /// Reads the trajectory from its file, or makes it and stores it there.
 Trajectory trajectory_of(const LiveOptions& options, const Scene& scene, const Start& start,
-                         const std::string& binary, const ComparedSolver& solver,
-                         Trajectory trajectory) {
+                         const ComparedSolver& solver, Trajectory trajectory) {
   const std::string numbers = printed(
       "|%.17g %.17g %.17g %.17g %d %d", trajectory.tolerance, options.duration, options.max_seconds,
       options.trajectory_seconds, trajectory.iterations, options.threads);
   const fs::path file =
       options.folder / "trajectories" /
-      (content_key("trajectory 4|" + binary + '|' + start.key + '|' + solver.name + numbers) +
-       ".bin");
+      (content_key("trajectory 4|" + start.key + '|' + solver.name + numbers) + ".bin");
   if (path_exists(file)) {
     Trajectory stored = trajectory;
     try {
@@ -231,7 +226,6 @@ LiveComparison run_live(const LiveOptions& options,
   const InterruptGuard guard;  // after make_start(): run() has one of its own
   comparison.has_driven_wall = start.system.first_driven_wall() >= 0;
   create_folder(options.folder / "trajectories");
-  const std::string binary = binary_key();
   std::vector<Trajectory> wanted;
   for (const double tolerance : options.tolerances) wanted.emplace_back().tolerance = tolerance;
   for (const int count : options.iterations) {
@@ -245,7 +239,7 @@ LiveComparison run_live(const LiveOptions& options,
       trajectory.solver = solver.name;
       trajectory.law = name_of(solver.law);
       comparison.trajectories.push_back(
-          trajectory_of(options, comparison.scene, start, binary, solver, trajectory));
+          trajectory_of(options, comparison.scene, start, solver, trajectory));
       keep_going = said(comparison.trajectories.back());
     }
   comparison.reference = reference_of(comparison.trajectories);

@@ -16,7 +16,6 @@
 namespace ballast {
 namespace {
 
-using Values = std::vector<double>;
 /// The statistics of a column of the record; NaN without steps.
 Statistics over_steps(const Trajectory& t, double StepRecord::*value) {
   return statistics(record_column(t.steps, value));
@@ -27,7 +26,7 @@ double last_of(const Trajectory& t, double StepRecord::*value) {
 }
 
 /// The last known solid fraction: not every step has one.
-double last_solid_fraction(const Trajectory& t) {
+double last_solid_fraction(const Trajectory& t, const LiveComparison&) {
   double last = not_known;
   for (const StepRecord& step : t.steps)
     if (std::isfinite(step.solid_fraction)) last = step.solid_fraction;
@@ -50,7 +49,8 @@ double mean_step_seconds(const Trajectory& t) {
 
 double last_distance(const Trajectory& t, const LiveComparison& c) {
   const Trajectory* reference = c.reference_trajectory();
-  const Values d = reference ? distances(t, *reference) : Values();
+  if (!reference) return not_known;
+  const std::vector<double> d = distances(t, *reference);
   return d.empty() ? not_known : d.back();
 }
 
@@ -77,8 +77,7 @@ constexpr LiveNumber shown_numbers[] = {
        return over_steps(t, &StepRecord::energy_residual).mean *
               static_cast<double>(t.steps.size());
      }},
-    {"solid_fraction_end", "solid fraction", "", 1.0, 4,
-     [](T t, C) { return last_solid_fraction(t); }},
+    {"solid_fraction_end", "solid fraction", "", 1.0, 4, last_solid_fraction},
     {"iterations_mean", "iterations", "", 1.0, 3,
      [](T t, C) { return over_steps(t, &StepRecord::iterations).mean; }},
     {"ms_per_step", nullptr, "", 1.0, 3, [](T t, C) { return 1e3 * mean_step_seconds(t); }},
@@ -94,8 +93,7 @@ std::vector<std::string> backends_of(const LiveComparison& comparison) {
   return backends;
 }
 
-/// A line in the backend's colour. It is solid for the tightest tolerance; looser ones and numbers
-/// of iterations have shorter dashes.
+/// In the backend's colour: solid for the tightest limit, with shorter dashes for looser ones.
 Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& trajectory) {
   const std::vector<std::string> backends = backends_of(comparison);
   // orders tolerances from the tightest on, then iterations from the most on
@@ -114,49 +112,37 @@ Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& traje
 }
 
 /// Fills in the line of a trajectory. `reference` is the trajectory itself where there is none.
-using LiveLine =
-    std::function<void(const Trajectory& t, const Trajectory& reference, Values& x, Values& y)>;
+using LiveLine = std::function<void(T t, T reference, Curve& line)>;
 
 LiveLine column(double StepRecord::*value, double factor) {
-  return [=](const Trajectory& t, const Trajectory&, Values& x, Values& y) {
-    for (const StepRecord& s : t.steps) {
-      if (!std::isfinite(s.*value)) continue;
-      x.push_back(s.time);
-      y.push_back(factor * (s.*value));
-    }
+  return [=](T t, T, Curve& line) {
+    for (const StepRecord& s : t.steps)
+      if (std::isfinite(s.*value)) line.add(s.time, factor * (s.*value));
   };
 }
 
-void line_of_cost(const Trajectory& t, const Trajectory&, Values& x, Values& y) {
-  for (const StepRecord& s : t.steps) {
-    x.push_back(s.time);
-    y.push_back((y.empty() ? 0.0 : y.back()) + s.seconds_solve);
-  }
+void line_of_cost(T t, T, Curve& line) {
+  double cost = 0.0;
+  for (const StepRecord& s : t.steps) line.add(s.time, cost += s.seconds_solve);
 }
 
-/// The distance of the wall from its place in the reference [µm], as the trajectories themselves
-/// coincide to the eye.
-void line_of_deviation(const Trajectory& t, const Trajectory& reference, Values& x, Values& y) {
-  for (size_t k = 0; k < std::min(t.steps.size(), reference.steps.size()); ++k) {
-    x.push_back(t.steps[k].time);
-    y.push_back(1e6 * std::abs(t.steps[k].wall_x - reference.steps[k].wall_x));
-  }
+/// The wall's distance from its place in the reference [µm]: the paths coincide to the eye.
+void line_of_deviation(T t, T reference, Curve& line) {
+  for (size_t k = 0; k < std::min(t.steps.size(), reference.steps.size()); ++k)
+    line.add(t.steps[k].time, 1e6 * std::abs(t.steps[k].wall_x - reference.steps[k].wall_x));
 }
 
-void line_of_distance(const Trajectory& t, const Trajectory& reference, Values& x, Values& y) {
-  y = distances(t, reference);
-  for (double& d : y) d *= 1e6;
-  x.assign(t.frame_times.begin(), t.frame_times.begin() + static_cast<std::ptrdiff_t>(y.size()));
+void line_of_distance(T t, T reference, Curve& line) {
+  const std::vector<double> metres = distances(t, reference);
+  for (size_t k = 0; k < metres.size(); ++k) line.add(t.frame_times[k], 1e6 * metres[k]);
 }
 
 page::Table numbers_table(const LiveComparison& comparison) {
   page::Table table{.head = {"backend, tolerance", "law", "ended"},
                     .is_number = {false, false, false}};
   for (const LiveNumber& number : shown_numbers)
-    if (number.head) {
-      table.head.push_back(page::marked(number.head));
-      table.is_number.push_back(true);
-    }
+    if (number.head) table.head.push_back(page::marked(number.head));
+  table.is_number.resize(table.head.size(), true);
   for (const Trajectory& t : comparison.trajectories) {
     page::Text label = t.label();
     if (&t == comparison.reference_trajectory()) label += page::Text(" (reference)", page::strong);
@@ -178,24 +164,18 @@ std::vector<Panel> accuracy_panels(const LiveComparison& comparison) {
               .log_y = true};
   const std::vector<std::string> backends = backends_of(comparison);
   for (size_t k = 0; k < backends.size(); ++k) {
-    std::vector<std::pair<double, double>> points;
+    std::multiset<std::pair<double, double>> points;
     for (const Trajectory& t : comparison.trajectories)
       if (const double error = t.mean_error() / comparison.velocity_scale;
           t.backend() == backends[k] && t.is_complete() && error > 0.0 && std::isfinite(error))
-        points.emplace_back(mean_step_seconds(t) / comparison.scene.step, error);
+        points.emplace(mean_step_seconds(t) / comparison.scene.step, error);
     if (points.empty()) continue;
-    std::sort(points.begin(), points.end());
     Curve curve = backend_curve(k, backends[k]);
     curve.mark = Mark::marked_line;
     for (const auto& [cost, error] : points) curve.add(cost, error);
     panel.curves.push_back(std::move(curve));
   }
   return panel.curves.empty() ? std::vector<Panel>() : std::vector{std::move(panel)};
-}
-
-/// "steps-pgs_0_0001.csv"
-std::string steps_file(const Trajectory& t) {
-  return made_plain("steps-" + t.label(), "-") + ".csv";
 }
 
 }  // namespace
@@ -232,10 +212,9 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
         .x_label = page::marked("*t*  (s)"), .y_label = page::marked(y_label), .log_y = log_y};
     for (const Trajectory& t : comparison.trajectories) {
       Curve curve = trajectory_curve(comparison, t);
-      if (!is_difference || &t != reference) line(t, reference ? *reference : t, curve.x, curve.y);
-      if (std::none_of(curve.y.begin(), curve.y.end(),
-                       [&](double v) { return std::isfinite(v) && (!log_y || v > 0.0); }))
-        continue;
+      if (!is_difference || &t != reference) line(t, reference ? *reference : t, curve);
+      const auto is_drawn = [&](double v) { return std::isfinite(v) && (!log_y || v > 0.0); };
+      if (std::ranges::none_of(curve.y, is_drawn)) continue;
       thin_out(curve.x, curve.y, 1500);
       panel.curves.push_back(std::move(curve));
     }
@@ -273,8 +252,8 @@ std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
 }
 
 void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison) {
-  for (const Trajectory& t : comparison.trajectories)
-    write_steps_csv(folder / steps_file(t), t.steps);
+  for (const Trajectory& t : comparison.trajectories)  // "steps-pgs_0_0001.csv"
+    write_steps_csv(folder / (made_plain("steps-" + t.label(), "-") + ".csv"), t.steps);
   write_whole_file(folder / "live.csv", live_csv(comparison));
   page::Page page{.title = "One start, several solvers: " + comparison.scene.name};
   page.add(

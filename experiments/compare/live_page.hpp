@@ -11,8 +11,7 @@
 
 namespace ballast {
 
-/// One number that sums up a trajectory: a column of live.csv, and one of the page's table where it
-/// has a head.
+/// A number that sums up a trajectory: a column of live.csv and, with a head, of the page's table.
 struct LiveNumber {
   const char* name;  ///< in live.csv, in SI units, or in ms where it says so
   const char* head;  ///< of the page's column, in the notation of page::marked; null: no column

@@ -140,8 +140,7 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
     if (row.verdict == Verdict::timeout) row.solve_seconds = watch.seconds();
     return judge(loaded, account, row);
   }
-  // Backends look at the clock between iterations, but prepare() never does, so the child has some
-  // time more before it is killed.
+  // Backends look at the clock between iterations, never in prepare(): the child has some grace.
   const double most_seconds = 1.25 * row.max_seconds + 2.0 + 2.0 * limits.min_timing_seconds;
   const ChildResult child = run_in_child(most_seconds, [&] {
     const auto bytes = static_cast<rlim_t>(limits.memory_MB * 1048576.0);

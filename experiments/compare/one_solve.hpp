@@ -1,7 +1,6 @@
 #pragma once
 // One attempt in a process of its own, under limits of time and memory: a solver that crashes,
-// hangs or takes too much memory becomes a row. It solves to a tolerance in either measure, is
-// timed outside the judge, and keeps its history.
+// hangs or takes too much memory becomes a row.
 
 #include <functional>
 #include <memory>
@@ -13,15 +12,14 @@
 
 namespace ballast {
 
-/// Makes a backend of solver_list(), a test's own, or one that starts a program.
 using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 
 struct SolveLimits {
   int max_iterations = 1 << 30;
   double memory_MB = 4096.0;  ///< limit of address space, the program's own included; 0: none
-  double min_timing_seconds =
-      0.25;  ///< a shorter solve is repeated in the child for about this time, and the fastest run
-             ///< counts: a solve faster than a page fault is otherwise not measured
+  /// A shorter solve is repeated in the child for about this time, and the fastest run counts: a
+  /// solve faster than a page fault is otherwise not measured.
+  double min_timing_seconds = 0.25;
   int most_runs = 20;  ///< in one child
 };
 
@@ -30,15 +28,13 @@ struct ComparedSolver {
   std::string name;
   ContactLaw law = ContactLaw::coulomb;
   MakeSolver make;
-  /// The key of an external program; empty for the others. No child is forked for an external
-  /// program, as it has limits of its own (experiments/external).
+  /// Of an external program, for which no child is forked: it has limits of its own. Else empty.
   std::string external_key = {};
 };
 
 /// Solves the case in a forked child, judges the answer in this process, and fills in the outcome
 /// in `row`, which must hold the attempt (measure, tolerance, start and max_seconds). A backend
-/// stops on the row's measure, which it checks wherever it evaluates its error (Budget::fclib).
-/// Throws InvalidProblem.
+/// stops on the row's measure (Budget::fclib). Throws InvalidProblem.
 void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const SolveLimits& limits,
                 CompareRow& row);
 

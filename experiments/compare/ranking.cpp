@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
-#include <set>
 
 #include "experiments/measure/curve_fit.hpp"
 #include "platform/random.hpp"
@@ -27,22 +27,6 @@ VectorXd means_of(const TriedCases& tried, const std::vector<Eigen::Index>& memb
   return sum / total;
 }
 
-/// The rank of each mean: 1 + the number of smaller means + half the number of other equal ones.
-VectorXd ranked(const VectorXd& means) {
-  VectorXd ranks(means.size());
-  for (Eigen::Index i = 0; i < means.size(); ++i)
-    ranks[i] = 0.5 + static_cast<double>((means.array() < means[i]).count()) +
-               0.5 * static_cast<double>((means.array() == means[i]).count());
-  return ranks;
-}
-
-/// The first value, and the 95 % interval of the others if they were drawn.
-Estimate estimate_of(const std::vector<double>& values, bool is_drawn) {
-  if (!is_drawn) return {values[0], not_known, not_known};
-  const std::span drawn = std::span(values).subspan(1);
-  return {values[0], quantile(drawn, 0.025), quantile(drawn, 0.975)};
-}
-
 }  // namespace
 
 std::string base_family(const CompareRow& row) {
@@ -54,34 +38,25 @@ std::string run_of(const std::string& case_name) {
 }
 
 std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows, double shift) {
-  using Repeats = std::vector<const CompareRow*>;
-  std::map<std::pair<double, StartKind>, std::map<std::string, std::map<std::string, Repeats>>> all;
-  for (const CompareRow& row : rows)
-    if (row.verdict != Verdict::unreadable)
-      all[{-row.tolerance, row.start}][row.case_name][row.solver].push_back(&row);
   const double limit = limit_of(rows);
   std::vector<TriedCases> result;
-  for (auto& [setting, cases] : all) {
-    TriedCases& tried = result.emplace_back(TriedCases{setting.second, -setting.first, {}, {}, {}});
-    std::set<std::string> solvers;
-    for (const auto& [name, by_solver] : cases)
-      for (const auto& [solver, repeats] : by_solver) solvers.insert(solver);
-    tried.solvers.assign(solvers.begin(), solvers.end());
-    std::erase_if(cases, [&](const auto& one) { return one.second.size() != solvers.size(); });
-    tried.log_seconds.resize(static_cast<Eigen::Index>(cases.size()),
-                             static_cast<Eigen::Index>(solvers.size()));
-    Eigen::Index c = 0;
-    for (const auto& [name, by_solver] : cases) {
-      tried.cases.push_back(by_solver.begin()->second.front());
-      Eigen::Index s = 0;
-      for (const auto& [solver, repeats] : by_solver) {
-        const RepeatedSolve solve = over_repeats(repeats);
+  for (CompareTable& table : compare_tables(rows)) {
+    TriedCases& tried = result.emplace_back(TriedCases{table.start, table.tolerance, {}, {}, {}});
+    for (const BackendSummary& s : table.backends) tried.solvers.push_back(s.solver);
+    std::ranges::sort(tried.solvers);
+    const size_t solvers = tried.solvers.size();
+    std::erase_if(table.cases, [&](const auto& one) { return one.second.size() != solvers; });
+    tried.log_seconds.resize(static_cast<Eigen::Index>(table.cases.size()),
+                             static_cast<Eigen::Index>(solvers));
+    for (const auto& [name, solves] : table.cases) {
+      Eigen::Index c = std::ssize(tried.cases), s = 0;
+      tried.cases.push_back(solves.begin()->second.row);
+      for (const auto& [solver, solve] : solves)
         tried.log_seconds(c, s++) =
             std::log(shift + (solve.solved ? std::min(solve.median, limit) : limit));
-      }
-      ++c;
     }
   }
+  std::ranges::stable_sort(result, std::greater(), &TriedCases::tolerance);
   return result;
 }
 
@@ -89,28 +64,34 @@ std::vector<Estimate> ranks_of(const TriedCases& tried, const std::vector<Eigen:
   const size_t solvers = tried.solvers.size();
   if (members.empty()) return std::vector<Estimate>(solvers, {not_known, not_known, not_known});
   std::vector<std::vector<double>> ranks(solvers);
+  // a rank is 1 + the number of smaller means + half the number of other equal ones
   const auto rank = [&](const Weights& weights) {
-    const VectorXd order = ranked(means_of(tried, members, weights));
-    for (size_t s = 0; s < solvers; ++s) ranks[s].push_back(order[static_cast<Eigen::Index>(s)]);
+    const Eigen::ArrayXd means = means_of(tried, members, weights);
+    for (size_t s = 0; s < solvers; ++s) {
+      const double mean = means[static_cast<Eigen::Index>(s)];
+      ranks[s].push_back(0.5 + static_cast<double>((means < mean).count()) +
+                         0.5 * static_cast<double>((means == mean).count()));
+    }
   };
-  Weights each, none;
+  Weights each;
   for (const Eigen::Index c : members)
     each[run_of(tried.cases[static_cast<size_t>(c)]->case_name)] = 1.0;
   rank(each);
   std::vector<std::string> runs;
   for (const auto& [run, weight] : each) runs.push_back(run);
-  for (const std::string& run : runs) none[run] = 0.0;
-  const bool is_drawn = runs.size() >= fewest_runs;
   Random random(1);
-  for (int k = 0; is_drawn && k < resamples; ++k) {
-    Weights drawn = none;
+  for (int k = 0; runs.size() >= fewest_runs && k < resamples; ++k) {
+    Weights drawn = each;
+    for (auto& [run, weight] : drawn) weight = 0.0;
     for (size_t n = 0; n < runs.size(); ++n)
       ++drawn[runs[static_cast<size_t>(random.below(static_cast<int>(runs.size())))]];
     rank(drawn);
   }
   std::vector<Estimate> estimates;
-  for (const std::vector<double>& values : ranks)
-    estimates.push_back(estimate_of(values, is_drawn));
+  for (const std::vector<double>& values : ranks) {
+    const std::span drawn = std::span(values).subspan(1);
+    estimates.push_back({values[0], quantile(drawn, 0.025), quantile(drawn, 0.975)});
+  }
   return estimates;
 }
 

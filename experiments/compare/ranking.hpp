@@ -1,6 +1,5 @@
 #pragma once
-// The order of backends by time over many problems, and how certain it is for other problems of the
-// same kind (bootstrap).
+// The order of backends by time, and how certain it is for similar problems (bootstrap).
 
 #include <filesystem>
 #include <span>
@@ -24,8 +23,7 @@ struct TriedCases {
   Eigen::MatrixXd log_seconds;
 };
 
-/// Returns one entry for each start and tolerance, loosest tolerance first. The rows must outlive
-/// it; unreadable rows are ignored.
+/// One for each start and tolerance, loosest first, of the readable rows, which must outlive it.
 std::vector<TriedCases> tried_cases(std::span<const CompareRow> rows, double shift = summary_shift);
 
 /// The family without a captured case's phase: "shaken, active" -> "shaken".
@@ -42,17 +40,15 @@ struct Estimate {
 inline constexpr int fewest_runs = 5, resamples = 200;
 
 /// Returns the rank of each backend by its mean over `members`, rows of log_seconds: 1 for the
-/// fastest; equal means share their mean rank. Without members all is NaN. The draws are seeded:
-/// the same on every machine.
+/// fastest; equal means share their mean rank. Without members all is NaN. The seed is fixed.
 std::vector<Estimate> ranks_of(const TriedCases& tried, const std::vector<Eigen::Index>& members);
 
 /// Writes the public table of a collection's comparison (ranking_page.cpp) into `folder`, whose
-/// manifest.json says which program and machine made the rows:
+/// manifest.json says which program and machine made the rows. Throws Error.
 ///   index.html   the order of the backends, the held part apart; each family; how far the order
 ///                holds; what each backend fails on; the families
 ///   ranking.md   the same page
 ///   table.csv    a line for each part (open, held), family or size, tolerance, start and backend
-/// Throws Error.
 void write_ranking(const std::filesystem::path& folder, std::span<const CompareRow> rows);
 
 }  // namespace ballast

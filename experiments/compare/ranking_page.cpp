@@ -34,7 +34,7 @@ bool is_of(const CompareRow& row, const std::string& kind) {
 }
 
 page::Text solved(const BackendSummary& s) {
-  return page::quantity(100.0 * s.solved / (s.solved + s.unsolved), "%");
+  return page::quantity(100.0 * s.solved / s.tried(), "%");
 }
 
 /// The outcomes of the unsolved cases, most frequent first.
@@ -82,7 +82,6 @@ class Ranking {
       sum_up(held, everything);
       for (const std::string& kind : kinds_) sum_up(held, kind);
     }
-    tried_ = tried_cases(rows_);
   }
 
   page::Page page() const {
@@ -96,7 +95,7 @@ class Ranking {
         page::words("ranking.order", {{"limit", page::quantity(limit_of(rows_), "s")},
                                       {"shift", page::quantity(1e3 * summary_shift, "ms", 1)}}));
     failures.add(page::words("ranking.failures"));
-    for (const TriedCases& tried : tried_) add_tables(tried, order, each, failures);
+    for (const TriedCases& tried : tried_cases(rows_)) add_tables(tried, order, each, failures);
     page.add(order);
     page.add({"families", "The problems", {page::words("ranking.families"), problems()}});
     page.add(each);
@@ -108,23 +107,19 @@ class Ranking {
   /// Returns a line for each part, kind, setting and backend.
   std::string csv() const {
     CsvWriter csv;
+    const auto whole = [](int number) { return std::to_string(number); };
+    const auto real = [](double number) { return printed("%.4g", number); };
     csv.add_row(std::vector<std::string>{"part", "kind", "tolerance", "start", "solver", "law",
                                          "cases", "solved", "share", "mean_seconds", "over_fastest",
                                          "timeouts", "crashes", "not_taken", "no_solution",
                                          "denied"});
     for (const auto& [place, s] : summaries_) {
       const auto& [held, kind, tolerance, start, solver] = place;
-      for (const std::string& text :
-           {std::string(held ? "held" : "open"), kind, printed("%g", tolerance),
-            std::string(name_of(start)), solver, s.law})
-        csv.add(text);
-      for (const int number : {s.solved + s.unsolved, s.solved}) csv.add(long{number});
-      for (const double value :
-           {1.0 * s.solved / (s.solved + s.unsolved), s.mean_seconds, s.mean_ratio})
-        csv.add(value, 4);
-      for (const int number : {s.timeouts, s.crashes, s.unsupported, s.no_solutions, s.denied})
-        csv.add(long{number});
-      csv.end_row();
+      csv.add_row(std::vector<std::string>{
+          held ? "held" : "open", kind, printed("%g", tolerance), name_of(start), solver, s.law,
+          whole(s.tried()), whole(s.solved), real(1.0 * s.solved / s.tried()), real(s.mean_seconds),
+          real(s.mean_ratio), whole(s.timeouts), whole(s.crashes), whole(s.unsupported),
+          whole(s.no_solutions), whole(s.denied)});
     }
     return csv.take();
   }
@@ -144,10 +139,7 @@ class Ranking {
                          size_t s) const {
     const auto found =
         summaries_.find({held, kind, tried.tolerance, tried.start, tried.solvers[s]});
-    if (found != summaries_.end()) return found->second;
-    BackendSummary none;
-    none.mean_seconds = none.mean_ratio = not_known;
-    return none;
+    return found == summaries_.end() ? BackendSummary() : found->second;
   }
 
   /// Adds all tables of one start and tolerance, with the backends in the order of their ranks.
@@ -159,18 +151,15 @@ class Ranking {
       by_rank.emplace_back(std::isnan(ranks[s].value) ? HUGE_VAL : ranks[s].value, s);
     std::ranges::sort(by_rank);
     page::Table all = page::words_table("ranking.order-table", words_for(tried)),
-                failed = page::words_table("ranking.failure-table", words_for(tried)), shares,
-                ratios;
+                failed = page::words_table("ranking.failure-table", words_for(tried)),
+                shares{.head = {"backend"}, .is_number = {false}};
     all.is_number = {true, true, false, false, true, true, true, true, true};
     failed.is_number = {false, true, false, false};
+    shares.head.insert(shares.head.end(), kinds_.begin(), kinds_.end());
+    shares.is_number.resize(shares.head.size(), true);
+    page::Table ratios = shares;
     shares.caption = page::words("ranking.solved", words_for(tried));
     ratios.caption = page::words("ranking.ratio", words_for(tried));
-    for (page::Table* table : {&shares, &ratios}) {
-      table->head = {"backend"};
-      table->head.insert(table->head.end(), kinds_.begin(), kinds_.end());
-      table->is_number.assign(kinds_.size() + 1, true);
-      table->is_number[0] = false;
-    }
     for (const auto& [rank, s] : by_rank) {
       const std::string& name = tried.solvers[s];
       const BackendSummary open = summary(false, everything, tried, s),
@@ -201,13 +190,12 @@ class Ranking {
     std::vector<std::pair<double, std::string>> places;
     for (const std::string& kind : kinds_)
       if (const BackendSummary some = summary(false, kind, tried, s); some.unsolved > 0)
-        places.emplace_back(
-            1.0 * some.solved / (some.solved + some.unsolved),
-            printed("%s (%d of %d)", kind.c_str(), some.unsolved, some.solved + some.unsolved));
+        places.emplace_back(1.0 * some.solved / some.tried(),
+                            printed("%s (%d of %d)", kind.c_str(), some.unsolved, some.tried()));
     std::ranges::sort(places);
     std::string text;
-    for (size_t k = 0; k < std::min<size_t>(3, places.size()); ++k)
-      add_to_list(text, places[k].second);
+    places.resize(std::min<size_t>(3, places.size()));
+    for (const auto& [share, place] : places) add_to_list(text, place);
     return text;
   }
 
@@ -216,34 +204,32 @@ class Ranking {
     table.is_number = {false, true, true, true, true, true, true, true};
     const double tightest = std::ranges::min(rows_, {}, &CompareRow::tolerance).tolerance;
     for (const std::string& kind : kinds_) {
-      std::map<std::string, bool> is_solved;
+      std::set<std::string> seen, mastered;
       std::vector<double> contacts;
       double ratio = 0.0;
       size_t held = 0;
       for (const CompareRow& row : rows_) {
         if (!is_of(row, kind)) continue;
-        const auto [known, is_new] = is_solved.try_emplace(row.case_name, false);
-        known->second |= row.tolerance == tightest && row.verdict == Verdict::solved;
-        if (!is_new) continue;
+        if (row.tolerance == tightest && row.verdict == Verdict::solved)
+          mastered.insert(row.case_name);
+        if (!seen.insert(row.case_name).second) continue;
         contacts.push_back(row.facts.contacts);
         ratio = std::max(ratio, row.facts.mass_ratio);
         held += !is_open(row);
       }
-      const auto number =
-          std::ranges::count_if(is_solved, [](const auto& one) { return one.second; });
-      table.rows.push_back(
-          {kind, page::exact(contacts.size()), page::exact(held),
-           page::exact(quantile(contacts, 0.0)), page::exact(quantile(contacts, 0.5)),
-           page::exact(quantile(contacts, 1.0)), page::number(ratio, 2),
-           page::quantity(
-               100.0 * static_cast<double>(number) / static_cast<double>(contacts.size()), "%")});
+      const double percent =
+          100.0 * static_cast<double>(mastered.size()) / static_cast<double>(seen.size());
+      table.rows.push_back({kind, page::exact(contacts.size()), page::exact(held),
+                            page::exact(quantile(contacts, 0.0)),
+                            page::exact(quantile(contacts, 0.5)),
+                            page::exact(quantile(contacts, 1.0)), page::number(ratio, 2),
+                            page::quantity(percent, "%")});
     }
     return table;
   }
 
   std::vector<CompareRow> rows_;
   std::vector<std::string> kinds_;  ///< families, then sizes
-  std::vector<TriedCases> tried_;
   /// Indexed by held or not, kind, tolerance, start and backend.
   std::map<std::tuple<bool, std::string, double, StartKind, std::string>, BackendSummary>
       summaries_;
@@ -254,9 +240,8 @@ class Ranking {
 void write_ranking(const fs::path& folder, std::span<const CompareRow> rows) {
   const Ranking ranking(rows);
   write_whole_file(folder / "table.csv", ranking.csv());
-  const RunData data = read_origin(folder);
   const page::Page page = ranking.page();
-  write_with_origin(page, data, folder / "index.html");
+  write_with_origin(page, read_origin(folder), folder / "index.html");
   write_whole_file(folder / "ranking.md", markdown_of(page));
 }
 

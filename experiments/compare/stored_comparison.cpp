@@ -34,8 +34,6 @@ Change change_of(const ChangedSolve& solve, double least) {
   return ratio > bound ? Change::slower : ratio * bound < 1.0 ? Change::faster : Change::same;
 }
 
-int rank_of(Change change) { return change == Change::lost ? 0 : change == Change::slower ? 1 : 2; }
-
 }  // namespace
 
 StoredComparison read_comparison(const fs::path& folder) {
@@ -53,11 +51,9 @@ StoredComparison read_comparison(const fs::path& folder) {
     const fs::path file = folder / "rows" / (key + ".json");
     stored.rows.push_back(compare_row_of_json(read_whole_file(file), file.string()));
   }
-  const auto place = [](const CompareRow& row) {
+  std::ranges::sort(stored.rows, {}, [](const CompareRow& row) {
     return std::tie(row.case_name, row.solver, row.tolerance, row.start, row.repeat, row.key);
-  };
-  std::sort(stored.rows.begin(), stored.rows.end(),
-            [&](const CompareRow& a, const CompareRow& b) { return place(a) < place(b); });
+  });
   return stored;
 }
 
@@ -146,9 +142,9 @@ std::vector<ChangedSolve> compare_diff(std::span<const CompareRow> before,
                    : sides[1].empty() ? Change::only_before
                                       : change_of(solve, least);
   }
-  std::stable_sort(changes.begin(), changes.end(), [](const auto& a, const auto& b) {
-    return std::tuple(rank_of(a.change), a.row->case_name, a.row->solver) <
-           std::tuple(rank_of(b.change), b.row->case_name, b.row->solver);
+  std::ranges::stable_sort(changes, {}, [](const ChangedSolve& solve) {
+    return std::tuple(solve.change != Change::lost, solve.change != Change::slower,
+                      solve.row->case_name, solve.row->solver);
   });
   return changes;
 }

@@ -1,6 +1,5 @@
 #pragma once
-// Finished comparisons, read back from their folders: rows, and which program made them where and
-// when; and several comparisons as one.
+// Finished comparisons, read back from their folders with their origins, and several as one.
 
 #include <filesystem>
 #include <span>
@@ -22,18 +21,16 @@ struct StoredComparison {
 /// Reads `folder`: manifest.json, results.csv, rows/. Throws Error where one is missing or damaged.
 StoredComparison read_comparison(const std::filesystem::path& folder);
 
-/// Several comparisons as one.
 struct MergedComparison {
   std::vector<std::string> machines;  ///< in the order of their first comparison
   std::vector<CompareRow> rows;       ///< one machine after the other
 };
 
-/// Merges comparisons. Rows are the same solve if the problem's content (not its name), backend,
-/// tolerance, start and measure agree. For each solve on a machine all repeats of the newest
-/// comparison count. A problem keeps its name of the first comparison, numbered if another one has
-/// it. With several machines, a case is a problem on one of them ("M2 · Capsules.dat"), so that
-/// times of two machines are never divided. Unreadable cases are left out. Throws Error for rows of
-/// two measures.
+/// Rows are the same solve if the problem's content (not its name), backend, tolerance, start and
+/// measure agree. For each solve on a machine all repeats of the newest comparison count. A problem
+/// keeps its name of the first comparison, numbered if another one has it. With several machines, a
+/// case is a problem on one of them ("M2 · Capsules.dat"), so that times of two machines are never
+/// divided. Unreadable cases are left out. Throws Error for rows of two measures.
 MergedComparison merged(std::vector<StoredComparison> comparisons);
 
 /// Makes the folder, writes manifest.json with each comparison's origin, and returns all rows.

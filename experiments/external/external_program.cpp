@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
@@ -78,19 +77,14 @@ std::vector<HistoryPoint> read_history(const Hdf5Reader& file) {
 }
 
 /// A path that is removed with this object, with everything under it.
-class PassingPath {
- public:
-  explicit PassingPath(fs::path path) : path_(std::move(path)) {}
+struct PassingPath {
+  explicit PassingPath(fs::path passing) : path(std::move(passing)) {}
+  PassingPath(const PassingPath&) = delete;
   ~PassingPath() {
     std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    fs::remove_all(path, ignored);
   }
-  PassingPath(const PassingPath&) = delete;
-  PassingPath& operator=(const PassingPath&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  const fs::path path_;
+  const fs::path path;
 };
 
 /// Makes a folder of our own, in TMPDIR if that is set: in memory, files cost no wait for a disk.
@@ -110,20 +104,23 @@ class ExternalProgram {
 
   ExternalAnswer ask(ExternalRequest& request) {
     const std::string number = std::to_string(++count_);
-    const PassingPath problem_file(folder_.path() / ("problem" + number + ".hdf5")),
-        answer_file(folder_.path() / ("answer" + number + ".hdf5"));
-    const fs::path &problem = problem_file.path(), &answer = answer_file.path();
+    const PassingPath problem(folder_.path / ("problem" + number + ".hdf5")),
+        answer(folder_.path / ("answer" + number + ".hdf5"));
     request.id = count_;
     if (command_.is_served) see_to_served();
-    write_request(problem, request);
-    // Backends look at the clock between iterations, so the program has some grace before it is
-    // killed.
+    write_request(problem.path, request);
+    // Methods look at the clock between iterations: there is some grace before it is killed.
     const double seconds = 1.25 * request.max_seconds + 2.0;
     if (command_.is_served)
-      tell(problem, answer, seconds);
+      tell(problem.path, answer.path, seconds);
     else
-      start(problem, answer, seconds + limits_.startup_seconds);
-    return answer_in(answer, request);
+      start(problem.path, answer.path, seconds + limits_.startup_seconds);
+    ExternalAnswer given = answer_in(answer.path, request);
+    if (given.status == ExternalAnswer::unsupported)
+      throw UnsupportedProblem(command_.name + ": says that it cannot take the problem");
+    if (given.status == ExternalAnswer::out_of_memory) throw std::bad_alloc();
+    if (!given.is_solution()) throw Error(command_.name + ": says that it failed");
+    return given;
   }
 
  private:
@@ -204,8 +201,8 @@ class ExternalProgram {
 
 class ExternalSolver final : public Solver {
  public:
-  ExternalSolver(std::shared_ptr<ExternalProgram> program, std::string name)
-      : program_(std::move(program)), name_(std::move(name)) {}
+  explicit ExternalSolver(std::shared_ptr<ExternalProgram> program)
+      : program_(std::move(program)) {}
 
   void prepare(const FrictionProblem&) override {}
 
@@ -218,10 +215,6 @@ class ExternalSolver final : public Solver {
                             .max_iterations = budget.max_iterations,
                             .max_seconds = budget.max_seconds};
     ExternalAnswer answer = program_->ask(request);
-    if (answer.status == ExternalAnswer::unsupported)
-      throw UnsupportedProblem(name_ + ": says that it cannot take the problem");
-    if (answer.status == ExternalAnswer::out_of_memory) throw std::bad_alloc();
-    if (!answer.is_solution()) throw Error(name_ + ": says that it failed");
     Solved solved;
     solved.impulses = std::move(answer.impulses);
     solved.reason = static_cast<StopReason>(answer.status);
@@ -237,7 +230,6 @@ class ExternalSolver final : public Solver {
 
  private:
   const std::shared_ptr<ExternalProgram> program_;
-  const std::string name_;
 };
 
 // The programs that solve: words of the command line, and lists in TOML.
@@ -250,13 +242,12 @@ std::vector<ExternalCommand> read_list(const fs::path& file) {
   std::vector<ExternalCommand> commands;
   const fs::path folder = fs::absolute(file).parent_path();
   for (TomlTable& entry : list.sections("external")) {
-    ExternalCommand command;
+    ExternalCommand& command = commands.emplace_back();
     command.name = entry.text("name");
     command.command = entry.text("command");
     entry.read("serve", &command.is_served);
     command.folder = folder.string();
     entry.finish();
-    commands.push_back(std::move(command));
   }
   list.finish();
   if (commands.empty())
@@ -345,7 +336,7 @@ std::function<std::unique_ptr<Solver>()> external_solver(const ExternalCommand& 
   const auto shared = std::make_shared<std::shared_ptr<ExternalProgram>>();
   return [shared, command, limits]() -> std::unique_ptr<Solver> {
     if (!*shared) *shared = std::make_shared<ExternalProgram>(command, limits);
-    return std::make_unique<ExternalSolver>(*shared, command.name);
+    return std::make_unique<ExternalSolver>(*shared);
   };
 }
 

@@ -39,8 +39,7 @@ struct ExternalAnswer {
   bool is_solution() const { return status < static_cast<int>(StopReason::numerical_failure); }
 };
 
-/// Writes the problem as W, q and, where its bodies are known, also as M, H. This and read_request
-/// throw Error naming the file.
+/// Writes W, q and, for known bodies, M, H. This and read_request throw Error naming the file.
 void write_request(const std::filesystem::path& file, const ExternalRequest& request);
 /// Reads the dynamics form where the file has it; contacts without friction have three rows.
 ExternalRequest read_request(const std::filesystem::path& file);
@@ -51,8 +50,7 @@ void write_answer(const std::filesystem::path& file, const ExternalRequest& requ
 /// numbers. An answer without a solution (unsupported, failed, out of memory) needs no impulses.
 ExternalAnswer read_answer(const std::filesystem::path& file, const ExternalRequest& request);
 
-// Solvers that are programs of their own, in any language: `ballast compare --external
-// name=command`. docs/manual/external.md says what such a program must do.
+// Solvers that are programs of their own: `ballast compare --external name=command`.
 
 struct ExternalCommand {
   std::string name, command;
@@ -65,8 +63,7 @@ struct ExternalLimits {
   double startup_seconds = 10.0;  ///< that it may take until it solves, beside the budget
 };
 
-/// Reads words "name=command", or names of TOML files with lists of them; each name once. Throws
-/// std::invalid_argument, Error.
+/// Reads words "name=command" and TOML files that list them. Throws std::invalid_argument, Error.
 std::vector<ExternalCommand> external_commands(const std::vector<std::string>& words);
 
 /// Key of the command and of the files that it names: an edit of the script changes it.

@@ -22,7 +22,6 @@ std::vector<double> finite_of(std::span<const double> values) {
 /// The samples whose x and y are both finite.
 struct Samples {
   ArrayXd x, y;
-  int count() const { return static_cast<int>(x.size()); }
 };
 
 Samples finite_samples(std::span<const double> x, std::span<const double> y) {
@@ -103,7 +102,7 @@ std::vector<double> low_pass(std::span<const double> y, int width) {
 LineFit fit_line(std::span<const double> x, std::span<const double> y) {
   const Samples samples = finite_samples(x, y);
   LineFit fit;
-  fit.samples = samples.count();
+  fit.samples = samples.x.size();
   if (fit.samples < 2) return fit;
   // about the means, as sums of large x would lose digits
   const double mean_x = samples.x.mean(), mean_y = samples.y.mean();
@@ -121,7 +120,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
 
 ExponentialFit fit_exponential(std::span<const double> x, std::span<const double> y) {
   const Samples samples = finite_samples(x, y);
-  if (samples.count() < 2) return {};
+  if (samples.x.size() < 2) return {};
   // x is counted from its minimum in units of its range, so that rates are pure numbers and nothing
   // overflows
   const double origin = samples.x.minCoeff(), range = samples.x.maxCoeff() - origin;
@@ -146,9 +145,7 @@ ExponentialFit fit_exponential(std::span<const double> x, std::span<const double
 }
 
 double t_test_p(double t, double degrees_of_freedom) {
-  if (!(degrees_of_freedom > 0.0) || std::isnan(t)) return not_known;
-  return Eigen::numext::betainc(0.5 * degrees_of_freedom, 0.5,
-                                degrees_of_freedom / (degrees_of_freedom + t * t));
+  return f_test_p(t * t, 1.0, degrees_of_freedom);
 }
 
 double student_t95(int degrees_of_freedom) {
@@ -242,15 +239,9 @@ PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
   std::vector<double> log_x, log_y;
   for (const double value : x) log_x.push_back(logarithm(value));
   for (const double value : y) log_y.push_back(logarithm(value));
-  // a power law is a line of the logarithms, and its exponent the slope
   const LineFit line = fit_line(log_x, log_y);
-  PowerFit fit;
-  fit.samples = line.samples;
-  fit.exponent = line.slope;
-  fit.prefactor = std::exp(line.offset);
-  fit.r2 = line.r2;
-  fit.half_width = student_t95(line.samples - 2) * line.slope_error;
-  return fit;
+  return {line.slope, std::exp(line.offset), student_t95(line.samples - 2) * line.slope_error,
+          line.r2, line.samples};
 }
 
 VarianceRatio misfit_of(const Points& points) {
@@ -280,7 +271,6 @@ Proportion fit_proportion(std::span<const double> x, std::span<const double> y) 
   std::vector<double> logs;
   for (size_t k = 0; k < std::min(x.size(), y.size()); ++k)
     if (x[k] > 0.0 && y[k] > 0.0) logs.push_back(std::log(y[k] / x[k]));
-  // the mean of logarithms is the geometric mean; its interval is a factor
   const SampleMean mean = sample_mean(logs);
   const double half = mean.half_width();
   return {std::exp(mean.mean), std::exp(mean.mean - half), std::exp(mean.mean + half),

@@ -112,13 +112,11 @@ struct PowerFit {
 /// Points that are not finite and positive are left out.
 PowerFit fit_power(std::span<const double> x, std::span<const double> y);
 
-/// The misfit of the power law to the points that have errors: chi^2 over its degrees of freedom,
-/// and the p of so large a misfit where the law holds. chi^2 sums squared residuals of the
-/// logarithms in units of the squared relative standard errors. About 1: the law holds within the
-/// scatter. Much more: the points deviate by more than their errors, and the interval of the
-/// exponent says how well a line can be drawn, not how well it holds. The errors are pooled over
-/// the points, because an error from three samples is itself known to a factor of two. NaN with
-/// fewer than three points that have errors.
+/// The misfit of the power law to the points that have errors: chi^2 of the logarithms, in units of
+/// the relative standard errors, over its degrees of freedom, and the p of so large a misfit where
+/// the law holds. Far above 1 the interval of the exponent says how well a line can be drawn, not
+/// how well it holds. The errors are pooled over the points, because an error from three samples is
+/// itself known to a factor of two. NaN with fewer than three such points.
 VarianceRatio misfit_of(const Points& points);
 
 /// y = C x, where C is the geometric mean of y/x. Its 95 % interval is a factor because the points

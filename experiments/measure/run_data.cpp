@@ -1,6 +1,5 @@
 #include "experiments/measure/run_data.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>

@@ -27,7 +27,6 @@ void summarise_accuracy(std::span<const StepRecord> steps, RunSummary& summary) 
   summary.error_max_relative = summary.error_rms.max / scale;
   if (summary.facts.tolerance > 0.0)
     summary.missed = std::ranges::count_if(steps, [](const auto& s) { return !(s.solved > 0.0); });
-  // the deepest overlap with its time, and the mean over all active points
   double points = 0.0, overlap = 0.0;
   for (const StepRecord& step : steps) {
     if (step.penetration_max > summary.penetration_max || std::isnan(summary.penetration_max)) {
@@ -58,7 +57,6 @@ EnergyBalance energy_balance(std::span<const StepRecord> steps) {
 }
 
 FirstContraction first_contraction(std::span<const StepRecord> steps, double frequency) {
-  // within the first period the wall is pressed in once; 0.3 s for fast loads
   const double end = std::max(1.0 / frequency, 0.3);
   FirstContraction contraction;
   std::vector<double> x;
@@ -82,9 +80,8 @@ Statistics over_periods(const std::vector<WallPeriod>& periods, double WallPerio
 /// [1/s]; NaN where there is no whole period.
 double compaction_rate(std::span<const StepRecord> steps, double frequency, double step,
                        double reference, const TimeWindow& window) {
-  // t_a is the first beginning of a period in the window, t_b the last end of one
   const double slack = 0.25 * step, end = std::min(window.end, steps.back().time);
-  // Periods begin at multiples of 1 / nu: a is the first in the window, b the last.
+  // Periods begin at multiples of 1 / nu: t_a is the first in the window, t_b the last.
   const double a = std::ceil((window.begin - slack) * frequency) / frequency,
                b = std::floor((end + slack) * frequency) / frequency;
   if (!(b > a + slack)) return not_known;
@@ -101,7 +98,6 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
       steps, [&](const StepRecord& step) { return -step.wall_x > facts.volume_margin; });
   if (compaction.has_wall_inside) return compaction;
   compaction.last = steps.back().solid_fraction;
-  // The reference is the solid fraction where the paper's window begins.
   const auto begin = std::ranges::find_if(steps, [&](const StepRecord& step) {
     return step.time >= paper_window.begin - 0.25 * facts.step;
   });
@@ -118,10 +114,9 @@ Compaction compaction_of(std::span<const StepRecord> steps, std::span<const Wall
     return compaction_rate(steps, facts.frequency, facts.step, compaction.reference, window);
   };
   compaction.rate = rate(paper_window);
-  compaction.rate_common = rate(common_window);
-  compaction.rate_first = rate(first_second);
-  if (steps.back().time >= late_window.end - 0.25 * facts.step)
-    compaction.rate_late = rate(late_window);
+  compaction.rate_common = rate({0.4, 1.0});
+  compaction.rate_first = rate({0.2, 1.0});
+  if (steps.back().time >= 1.5 - 0.25 * facts.step) compaction.rate_late = rate({0.5, 1.5});
   return compaction;
 }
 
@@ -144,11 +139,11 @@ void summarise_wall(std::span<const StepRecord> steps, RunSummary& summary) {
   summary.error_counted = statistics(errors).mean / facts.velocity_scale;
 }
 
+/// Whether overlaps, and energy that contacts gave, are visible: above 1 %.
 bool overlaps(const RunSummary& run) {
-  return run.penetration_max > visible_overlap * run.facts.smallest_size;
+  return run.penetration_max > 0.01 * run.facts.smallest_size;
 }
-
-bool gains(const RunSummary& run) { return run.energy.gained > visible_gain * run.energy.moved; }
+bool gains(const RunSummary& run) { return run.energy.gained > 0.01 * run.energy.moved; }
 
 std::string length_text(double metres) {
   const bool is_small = metres < 1e-3;
@@ -258,25 +253,23 @@ Roll roll_of(std::span<const Displacement> displacements, const XzRectangle& r, 
 
 std::vector<Displacement> cell_means(std::span<const Displacement> displacements,
                                      const XzRectangle& r, int columns, int rows) {
-  const size_t cells = static_cast<size_t>(columns) * static_cast<size_t>(rows);
-  std::vector<Vec3> sum(cells, Vec3::Zero());
-  std::vector<double> count(cells, 0.0);
+  std::vector<Vec3> sum(columns * rows, Vec3::Zero());
+  std::vector<double> count(columns * rows, 0.0);
   const double width = (r.x_hi - r.x_lo) / columns, height = (r.z_hi - r.z_lo) / rows;
   for (const Displacement& d : displacements) {
     const double column = std::floor((d.place.x() - r.x_lo) / width),
                  row = std::floor((d.place.z() - r.z_lo) / height);
     if (!is_between(column, 0, columns - 1) || !is_between(row, 0, rows - 1)) continue;
-    const size_t cell = static_cast<size_t>(row * columns + column);
+    const auto cell = static_cast<size_t>(row * columns + column);
     sum[cell] += d.move;
     count[cell] += 1.0;
   }
   std::vector<Displacement> means;
-  for (size_t cell = 0; cell < cells; ++cell) {
+  for (int cell = 0; cell < columns * rows; ++cell) {
     if (count[cell] == 0.0) continue;
-    const size_t in_row = static_cast<size_t>(columns), below = cell / in_row;
-    const double column = static_cast<double>(cell % in_row), row = static_cast<double>(below);
-    means.push_back({Vec3(r.x_lo + (column + 0.5) * width, 0.0, r.z_lo + (row + 0.5) * height),
-                     sum[cell] / count[cell]});
+    const int row = cell / columns, column = cell % columns;
+    const double x = r.x_lo + (column + 0.5) * width, z = r.z_lo + (row + 0.5) * height;
+    means.push_back({Vec3(x, 0.0, z), sum[cell] / count[cell]});
   }
   return means;
 }
@@ -301,13 +294,11 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts) {
   if (steps.empty()) return summary;
   summarise_cost(steps, summary);
   summary.duration = steps.back().time;
-  // numbers of every run: effort, errors, overlaps, energy
   summary.iterations = statistics(record_column(steps, &StepRecord::iterations));
   summary.contacts = statistics(record_column(steps, &StepRecord::contacts));
   summary.active_contacts = statistics(record_column(steps, &StepRecord::active_contacts));
   summarise_accuracy(steps, summary);
   summary.energy = energy_balance(steps);
-  // further numbers, of a driven wall and of a packing
   if (summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
     summarise_wall(steps, summary);
   if (summary.facts.has_packing)

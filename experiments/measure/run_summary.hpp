@@ -18,12 +18,9 @@
 
 namespace ballast {
 
-// Roll of the grains: their displacements over whole periods of the load (stroboscopic: at the same
-// phase, so that to-and-fro motion drops out), and the sense of these around a loop in the xz plane
-// (paper, Fig. 6).
-//
-// A mean vorticity cannot tell a roll from shear, as both have a circulation. In a roll the
-// displacement has the same sense along all four sides of a rectangle.
+// Roll of the grains: displacements over whole periods of the load, at the same phase, so that
+// to-and-fro motion drops out, and their sense around a loop in the xz plane (paper, Fig. 6). Shear
+// has a circulation, too; in a roll all four sides of a rectangle have the same sense.
 
 /// The displacement of one grain.
 struct Displacement {
@@ -128,12 +125,8 @@ struct FirstContraction {
 struct TimeWindow {
   double begin, end;
 };
-/// Compaction is measured in the paper's window, from its time lag to the end of the run, and in
-/// the same window of absolute time for all frequencies.
+/// Where the paper measures compaction: from its time lag to the end of the run.
 inline constexpr TimeWindow paper_window{0.2, 1e30};
-inline constexpr TimeWindow common_window{0.4, 1.0};
-/// The paper's window of a run of 1 s, and a later window with one length for all frequencies.
-inline constexpr TimeWindow first_second{0.2, 1.0}, late_window{0.5, 1.5};
 
 /// The solid fraction rho and how it grows (paper, sec. 5, Eq. 4, Figs. 12 and 13). Of a run whose
 /// wall enters the control volume only rho before the drive is known: the wall displaces grains.
@@ -146,9 +139,9 @@ struct Compaction {
   double gain = not_known;           ///< Delta rho_1: mean over them
   double relative_gain = not_known;  ///< Delta rho_1 / rho_0
   double rate = not_known;           ///< Eq. 4 over paper_window [1/s]
-  double rate_common = not_known;    ///< Eq. 4 over common_window [1/s]
-  double rate_first = not_known;     ///< Eq. 4 over first_second [1/s]
-  double rate_late = not_known;      ///< Eq. 4 over late_window [1/s]; NaN of a shorter run
+  double rate_common = not_known;    ///< Eq. 4 from 0.4 to 1 s [1/s]
+  double rate_first = not_known;     ///< Eq. 4 from 0.2 to 1 s [1/s]
+  double rate_late = not_known;      ///< Eq. 4 from 0.5 to 1.5 s [1/s]; NaN of a shorter run
 };
 
 struct RunSummary {
@@ -197,10 +190,6 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts);
 
 // Findings that a run's user must see unasked: steps that missed their tolerance, visible overlaps,
 // energy that no contact law gives; and the remedy for each.
-
-/// An overlap above this fraction of the smallest radius, and gained energy above this fraction of
-/// the energy that moved, are visible.
-inline constexpr double visible_overlap = 0.01, visible_gain = 0.01;
 
 /// The unit of printed errors: g h, or m/s without gravity.
 const char* error_unit(const RunSummary& run);

@@ -1,7 +1,6 @@
 #include "experiments/measure/wall_cycles.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -40,11 +39,7 @@ void find_stroke(std::span<const StepRecord> steps, WallPeriod& period) {
 }
 
 WallPeriod make_period(std::span<const StepRecord> steps, double begin, double end, double h) {
-  WallPeriod period;
-  period.begin = begin;
-  period.end = end;
-  period.first = first_after(steps, begin, h);
-  period.last = first_after(steps, end, h);
+  WallPeriod period{begin, end, first_after(steps, begin, h), first_after(steps, end, h)};
   if (period.first == period.last) return period;
   find_stroke(steps, period);
   // the sample before the period is at its beginning; the first one is already a step later
@@ -62,11 +57,9 @@ WallPeriod make_period(std::span<const StepRecord> steps, double begin, double e
 /// contains a load above the mean of the period. Returns false when there is none.
 bool mark_jammed(std::span<const StepRecord> steps, const WallPeriod& period, double limit,
                  size_t least, size_t first, WallCycles& cycles) {
-  // a jammed wall is slow under a high load; a turning point is slow under a low one
   double mean = 0.0;
   for (size_t k = period.first; k < period.last; ++k)
-    mean += steps[k].load / static_cast<double>(period.last - period.first);
-  // Every slow stretch that contains such a load is measured from end to end; the longest is kept.
+    mean += steps[k].load / (period.last - period.first);
   const auto is_slow = [&](size_t k) { return std::abs(cycles.velocity[k]) <= limit; };
   size_t longest_begin = 0, longest_end = 0;
   for (size_t k = period.first; k < period.last; ++k) {
@@ -89,7 +82,6 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
                  WallCycles& cycles) {
   const double transient = transient_end(1.0 / duration_of_period);
   const size_t first = first_after(steps, transient, h);
-  // slow is relative to the fastest motion after the transient
   std::vector<double> speed;
   for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
   cycles.v_peak = statistics(speed).max;
@@ -115,11 +107,9 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
   for (const WallPeriod& period : cycles.periods)
     if (mark_jammed(steps, period, limit, least, first, cycles)) ++cycles.jammed_periods;
   for (WallPeriod& period : cycles.periods) {
-    const auto jammed =
-        std::count(cycles.phase.begin() + static_cast<long>(period.first),
-                   cycles.phase.begin() + static_cast<long>(period.last), WallPhase::jammed);
-    period.jammed_share =
-        static_cast<double>(jammed) / static_cast<double>(period.last - period.first);
+    const auto phases = std::span(cycles.phase).subspan(period.first, period.last - period.first);
+    const double jammed = std::ranges::count(phases, WallPhase::jammed);
+    period.jammed_share = jammed / phases.size();
   }
 }
 
@@ -168,7 +158,6 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
 
 JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cycles, double f_min,
                          double f_max) {
-  JammedState state;
   std::vector<double> miss, smooth_miss, speed;
   long jammed = 0, all = 0;
   for (size_t k = 0; k < steps.size(); ++k) {
@@ -181,16 +170,15 @@ JammedState jammed_state(std::span<const StepRecord> steps, const WallCycles& cy
     smooth_miss.push_back(std::abs(cycles.force[k] - steps[k].load) / f_max);
     speed.push_back(std::abs(steps[k].wall_v));
   }
-  if (all > 0) state.share = static_cast<double>(jammed) / static_cast<double>(all);
   const Statistics force = statistics(miss), speeds = statistics(speed);
-  state.samples = static_cast<long>(miss.size());
-  state.force_mean = force.mean;
-  state.force_max = force.max;
-  state.force_p95 = quantile(miss, 0.95);
-  state.force_smooth = statistics(smooth_miss).mean;
-  state.speed_mean = speeds.mean;
-  state.speed_max = speeds.max;
-  return state;
+  return {.samples = std::ssize(miss),
+          .share = all > 0 ? static_cast<double>(jammed) / all : not_known,
+          .force_mean = force.mean,
+          .force_p95 = quantile(miss, 0.95),
+          .force_max = force.max,
+          .force_smooth = statistics(smooth_miss).mean,
+          .speed_mean = speeds.mean,
+          .speed_max = speeds.max};
 }
 
 ForceLaw force_law(std::span<const StepRecord> steps, const WallCycles& cycles, double grain_mass,

@@ -4,10 +4,9 @@
 //
 // The periods that count are whole periods of the load that begin at or after 0.3 s and not in the
 // first period. A period begins where the load falls through its mean, when the packing is jammed.
-// The rule leaves 2 periods at 1 Hz (3 s), 3 at 5 Hz and 42 at 60 Hz (1 s). It is the only rule for
-// the transient: a run's page, plans and the paper's figures all use it. The paper's own time lag
-// of the first contraction is 0.2 s, but the packing still settles then: with 0.3 s and a period,
-// the fastest drives lose the same time and the slowest a whole period of it.
+// A run's page, plans and the paper's figures all use this rule for the transient. The paper's own
+// time lag of the first contraction is 0.2 s, but the packing still settles then: with 0.3 s and a
+// period, the fastest drives lose the same time and the slowest a whole period of it.
 //
 // The phases follow from the outward velocity v, which is taken from the record and smoothed;
 // v_peak is its largest magnitude after the first transient.

@@ -25,13 +25,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The ink's variable in the style sheet.
-const char* variable_of(Ink ink) {
-  // in the order of Ink
-  constexpr const char* names[] = {"ink", "blue",   "vermilion", "green", "orange",
-                                   "sky", "purple", "grey",      "light"};
-  return names[static_cast<size_t>(ink)];
-}
+/// The inks' variables in the style sheet, in the order of Ink.
+constexpr const char* variables[] = {"ink", "blue",   "vermilion", "green", "orange",
+                                     "sky", "purple", "grey",      "light"};
 
 /// CSS rules that replace the colours of the figures by variables of the page.
 std::string palette_rules() {
@@ -43,12 +39,11 @@ std::string palette_rules() {
   };
   add("black", "ink");
   add("rgb(224, 224, 224)", "grid");
-  for (int k = 0; k <= static_cast<int>(Ink::light); ++k) {
-    const Ink ink = Ink(k);
-    const long value = std::strtol(rgb_of(ink) + 1, nullptr, 16);
+  for (size_t k = 0; k < std::size(variables); ++k) {
+    const long value = std::strtol(rgb_of(Ink(k)) + 1, nullptr, 16);
     // gnuplot writes the colours of words in the first form and all others in the second
     for (const char* form : {"rgb(%ld,%ld,%ld)", "rgb(%3ld, %3ld, %3ld)"})
-      add(printed(form, value >> 16, (value >> 8) & 255, value & 255), variable_of(ink));
+      add(printed(form, value >> 16, (value >> 8) & 255, value & 255), variables[k]);
   }
   return rules;
 }
@@ -62,9 +57,8 @@ void cut_all(std::string& text, std::string_view begin, std::string_view end) {
 }
 
 // The modules in the order in which they build upon each other.
-constexpr std::array common_modules = {"elements.js", "choice.js",   "numbers.js",
-                                       "tables.js",   "palette.js",  "legends.js",
-                                       "charts.js",   "pictures.js", "answers.js"};
+constexpr std::array common_modules = {"elements.js", "choice.js", "numbers.js",  "tables.js",
+                                       "legends.js",  "charts.js", "pictures.js", "answers.js"};
 constexpr std::array replay_modules = {
     "vector.js", "colour.js", "data.js",  "camera.js", "shader.js", "mesh.js",  "stage.js",
     "shades.js", "marks.js",  "plots.js", "panel.js",  "errors.js", "input.js", "replay.js"};
@@ -92,14 +86,12 @@ Json axis_json(const Text& label, bool is_log, const std::optional<double>& low,
 }
 
 Json curve_json(const Curve& curve) {
-  const bool is_area = curve.mark == Mark::area;
+  constexpr const char* kinds[] = {"line", "line", "points", "area"};  // in the order of Mark
   return {{"title", plain_words(curve.title)},
-          {"ink", variable_of(curve.ink)},
+          {"ink", name_in(variables, curve.ink)},
           {"dash", curve.dashed ? 1 + curve.fineness : 0},
           {"width", curve.width},
-          {"mark", is_area                      ? "area"
-                   : curve.mark == Mark::points ? "points"
-                                                : "line"},
+          {"mark", name_in(kinds, curve.mark)},
           {"marked", curve.mark == Mark::marked_line},
           {"x", short_numbers(curve.x)},
           {"y", short_numbers(curve.y)},
@@ -152,11 +144,8 @@ std::string row_of(const Table& table, const std::vector<Text>& cells, const std
   for (size_t c = 0; c < cells.size(); ++c) {
     const bool is_number = c < table.is_number.size() && table.is_number[c];
     const bool is_long = !is_number && plain_words(cells[c]).size() > longest_in_narrow_cell;
-    html += '<' + tag +
-            (is_number ? " class=\"n\">"
-             : is_long ? " class=\"long\">"
-                       : ">") +
-            html_of(cells[c]) + "</" + tag + '>';
+    const char* kind = is_number ? " class=\"n\"" : is_long ? " class=\"long\"" : "";
+    html += '<' + tag + kind + '>' + html_of(cells[c]) + "</" + tag + '>';
   }
   return html + "</tr>\n";
 }
@@ -167,7 +156,6 @@ std::string items_of(const std::vector<Text>& items) {
   return html + "</ul>";
 }
 
-/// Writes a block of any kind.
 struct HtmlBlocks {
   std::string operator()(const Text& text) const { return "<p>" + html_of(text) + "</p>\n"; }
   std::string operator()(const Subheading& heading) const {

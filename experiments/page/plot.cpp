@@ -109,9 +109,8 @@ struct PanelPlace {
 /// panel, or below each when the x labels differ.
 std::vector<PanelPlace> panel_places(const Figure& figure) {
   const std::vector<Panel>& panels = figure.panels;
-  const bool is_shared = std::all_of(panels.begin(), panels.end(), [&](const Panel& panel) {
-    return panel.x_label == panels[0].x_label;
-  });
+  const bool is_shared = std::ranges::all_of(
+      panels, [&](const Panel& panel) { return panel.x_label == panels[0].x_label; });
   const double labels = is_shared && panels.size() > 1 ? 44.0 / figure.height : 0.0,
                size = (1.0 - labels) / static_cast<double>(panels.size());
   std::vector<PanelPlace> places;
@@ -155,22 +154,16 @@ std::string plot_command(const std::string& block, const Curve& curve) {
                     ink = transparency < 0.5
                               ? "'#" + rgb + "'"
                               : printed("'#%02lx", std::lround(transparency)) + rgb + "'";
-  switch (curve.mark) {
-    case Mark::line:
-    case Mark::marked_line:
-      text += printed(" using 1:2 with %s lc rgb %s lw %.3g%s",
-                      curve.mark == Mark::line ? "lines" : "linespoints pt 7 ps 0.6", ink.c_str(),
-                      curve.width, curve.dashed ? dashes[std::clamp(curve.fineness, 0, 2)] : "");
-      break;
-    case Mark::points:
-      text += printed(" using %s pt %d ps %.3g lc rgb %s",
-                      curve.y_error.empty() ? "1:2 with points" : "1:2:3 with yerrorbars", shape,
-                      0.35 * curve.width, ink.c_str());
-      break;
-    case Mark::area:
-      text += printed(" using 1:2:3 with filledcurves fs solid noborder fc rgb %s", ink.c_str());
-      break;
-  }
+  if (curve.mark == Mark::area)
+    text += " using 1:2:3 with filledcurves fs solid noborder fc rgb " + ink;
+  else if (curve.mark == Mark::points)
+    text += printed(" using %s pt %d ps %.3g lc rgb %s",
+                    curve.y_error.empty() ? "1:2 with points" : "1:2:3 with yerrorbars", shape,
+                    0.35 * curve.width, ink.c_str());
+  else
+    text += printed(" using 1:2 with %s lc rgb %s lw %.3g%s",
+                    curve.mark == Mark::line ? "lines" : "linespoints pt 7 ps 0.6", ink.c_str(),
+                    curve.width, curve.dashed ? dashes[std::clamp(curve.fineness, 0, 2)] : "");
   return text + (curve.title.empty() ? " notitle" : " title " + quoted(curve.title));
 }
 
@@ -276,10 +269,9 @@ std::string gnuplot_script(const Figure& figure) {
                   left_margin / figure.width, 1.0 - right_margin / figure.width);
   text += "set key above right horizontal samplen 1.6 spacing 1.0\nset multiplot\n";
   const std::vector<PanelPlace> places = panel_places(figure);
-  char next = 'a';
   for (size_t p = 0; p < figure.panels.size(); ++p)
     text += panel_commands(figure.panels[p], places[p], "$p" + std::to_string(p) + "c",
-                           figure.has_letters ? next++ : '\0');
+                           figure.has_letters ? static_cast<char>('a' + p) : '\0');
   return text + "unset multiplot\n";
 }
 

@@ -25,18 +25,13 @@ constexpr std::pair<std::string_view, Styles> marks[] = {
     {"**", strong}, {"*", symbol}, {"~", subscript}, {"^", superscript}, {"`", code}};
 
 /// The parser of one notation.
-class Notation {
- public:
-  Notation(std::string_view notation, const Values& values) : whole_(notation), values_(values) {}
+struct Notation {
+  std::string_view whole;
+  const Values& values;
+  Text text = {};  ///< that was read so far
 
-  Text read() {
-    read_part(whole_, 0, "");
-    return std::move(text_);
-  }
-
- private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw std::logic_error("page text \"" + std::string(whole_) + "\": " + what);
+    throw std::logic_error("page text \"" + std::string(whole) + "\": " + what);
   }
 
   void read_part(std::string_view part, Styles styles, const std::string& link) {
@@ -46,9 +41,8 @@ class Notation {
       size_t taken = read_mark(rest, styles);
       if (taken == 0) taken = read_bracket(rest, styles, link);
       if (taken == 0) {
-        const bool is_quoted = rest[0] == '\\' && rest.size() > 1 && !(styles & code);
-        text_ += Text(std::string(1, rest[is_quoted ? 1 : 0]), styles, link);
-        taken = is_quoted ? 2 : 1;
+        taken = rest[0] == '\\' && rest.size() > 1 && !(styles & code) ? 2 : 1;
+        text += Text(std::string(1, rest[taken - 1]), styles, link);
       }
       at += taken;
     }
@@ -57,11 +51,8 @@ class Notation {
 
   /// Applies a mark at the start of `rest`, which switches a style. Returns its length; 0: no mark.
   size_t read_mark(std::string_view rest, Styles& styles) const {
-    if (styles & code) {  // in code every character but the closing mark is literal
-      if (rest[0] != '`') return 0;
-      styles &= ~code;
-      return 1;
-    }
+    // in code every character but the closing mark is literal
+    if (styles & code && rest[0] != '`') return 0;
     if (rest.starts_with("((") || rest.starts_with("))")) {
       const bool opens = rest[0] == '(';
       if (opens == ((styles & note) != 0)) fail("a note in a note, or none to end");
@@ -83,9 +74,9 @@ class Notation {
       const size_t end = rest.find('}');
       if (end == rest.npos) fail("a value's name isn't closed");
       const std::string name(rest.substr(1, end - 1));
-      const auto value = values_.find(name);
-      if (value == values_.end()) fail("the value {" + name + "} is missing");
-      text_ += styled(value->second, styles);
+      const auto value = values.find(name);
+      if (value == values.end()) fail("the value {" + name + "} is missing");
+      text += styled(value->second, styles);
       return end + 1;
     }
     const size_t middle = rest.find("](");
@@ -96,10 +87,6 @@ class Notation {
               std::string(rest.substr(middle + 2, end - middle - 2)));
     return end + 1;
   }
-
-  std::string_view whole_;
-  const Values& values_;
-  Text text_;
 };
 
 /// "−4" as "⁻⁴"; empty when a character has no raised form.
@@ -126,10 +113,8 @@ std::string with_minus_sign(std::string digits) {
   return digits;
 }
 
-Text unknown() { return {"–", note}; }
-
 Text number_text(double value, int digits, bool is_exact) {
-  if (!std::isfinite(value)) return unknown();
+  if (!std::isfinite(value)) return {"–", note};
   if (value == 0.0) return "0";
   // the rounded value decides, so that 999999.9 isn't printed as 1.00e+06
   std::string text = printed("%.*e", digits - 1, value);
@@ -190,7 +175,9 @@ std::vector<Text> parts_of(const Text& text, std::string_view mark) {
 }
 
 Text marked(std::string_view notation, const Values& values) {
-  return Notation(notation, values).read();
+  Notation reader{notation, values};
+  reader.read_part(notation, 0, "");
+  return std::move(reader.text);
 }
 
 std::string filled(std::string_view document,
@@ -210,12 +197,8 @@ std::string plain_words(const Text& text) {
   std::string words;
   for (const Span& span : text.spans) {
     const std::string high = span.styles & superscript ? raised(span.text) : std::string();
-    if (!high.empty())
-      words += high;
-    else if (span.styles & (subscript | superscript))
-      words += (span.styles & subscript ? "_" : "^") + span.text;
-    else
-      words += span.text;
+    const char* mark = span.styles & subscript ? "_" : span.styles & superscript ? "^" : "";
+    words += high.empty() ? mark + span.text : high;
   }
   std::replace(words.begin(), words.end(), '\n', ' ');
   return words;
@@ -254,7 +237,7 @@ Text with_error(double value, double error) {
 }
 
 Text percent(double relative) {
-  if (!std::isfinite(relative)) return unknown();
+  if (!std::isfinite(relative)) return number(relative);
   return (relative >= 0.0 ? "+" : "−") + number(100.0 * std::abs(relative), 2) + " %";
 }
 
@@ -275,7 +258,6 @@ std::map<std::string, std::string> entries_of(const std::string& texts) {
       const auto [place, is_new] = entries.try_emplace(line.substr(2));
       if (!is_new) throw std::logic_error("page texts: \"" + place->first + "\" stands twice");
       entry = &place->second;
-      is_after_gap = false;
     } else if (line.empty()) {
       is_after_gap = true;
     } else if (!entry) {

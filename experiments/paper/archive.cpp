@@ -34,9 +34,6 @@ std::string sha256_of(const fs::path& file) {
   return line.substr(line.starts_with('\\'), 64);
 }
 
-/// The texts of the archive's files by their paths within the archive.
-using Files = std::map<std::string, std::string>;
-
 /// One row for each packing that the campaign starts from.
 std::string packings_csv(const PaperData& data, const fs::path& folder) {
   struct Start {
@@ -63,15 +60,17 @@ std::string packings_csv(const PaperData& data, const fs::path& folder) {
   return csv.take();
 }
 
-Files files_of(PaperData& data, const ArchiveOptions& order) {
+/// The texts of the archive's files by their paths within the archive.
+std::map<std::string, std::string> files_of(PaperData& data, const ArchiveOptions& order) {
   const std::vector<RunRow>& rows = data.rows();
-  Files files{{"CITATION.cff", citation_text()},
-              {"LICENSE", licence_text()},
-              {"campaign.toml", order.plan.empty() ? campaign_plan() : read_whole_file(order.plan)},
-              {"runs.csv", runs_csv(rows)},
-              {"columns.csv", run_columns_csv()},
-              {"packings.csv", packings_csv(data, order.packings)},
-              {"curve.py", archive_file("curve.py")}};
+  std::map<std::string, std::string> files{
+      {"CITATION.cff", citation_text()},
+      {"LICENSE", licence_text()},
+      {"campaign.toml", order.plan.empty() ? campaign_plan() : read_whole_file(order.plan)},
+      {"runs.csv", runs_csv(rows)},
+      {"columns.csv", run_columns_csv()},
+      {"packings.csv", packings_csv(data, order.packings)},
+      {"curve.py", archive_file("curve.py")}};
   std::set<std::string> scenes;
   for (const PlannedRun& run : data.campaign()) scenes.insert(run.scene);
   for (const std::string& scene : scenes) {
@@ -103,16 +102,6 @@ fs::path write_archive(PaperData& data, const ArchiveOptions& order) {
                  neighbour = packed.string() + ".tmp";
   require_own_folder(folder, {"scenes"});
   create_folder(folder / "scenes");
-  std::string sums;
-  std::vector<std::string> members;
-  for (const auto& [member, text] : files_of(data, order)) {
-    create_folder((folder / member).parent_path());
-    write_whole_file(folder / member, text);
-    sums += sha256_of(folder / member) + "  " + member + "\n";
-    members.push_back(name + "/" + member);
-  }
-  write_whole_file(folder / "SHA256SUMS", sums);
-  members.push_back(name + "/SHA256SUMS");
   // without owner and date the same rows give the same bytes
   std::vector<std::string> words{"--create",
                                  "--force-local",
@@ -125,7 +114,15 @@ fs::path write_archive(PaperData& data, const ArchiveOptions& order) {
                                  "--mtime=@0",
                                  "--directory=" + order.output.string(),
                                  "--"};
-  words.insert(words.end(), members.begin(), members.end());
+  std::string sums;
+  for (const auto& [member, text] : files_of(data, order)) {
+    create_folder((folder / member).parent_path());
+    write_whole_file(folder / member, text);
+    sums += sha256_of(folder / member) + "  " + member + "\n";
+    words.push_back(name + "/" + member);
+  }
+  write_whole_file(folder / "SHA256SUMS", sums);
+  words.push_back(name + "/SHA256SUMS");
   output_of("tar", words, packed);
   fs::rename(neighbour, packed);
   return packed;

@@ -30,17 +30,6 @@ std::string pandoc_of(const page::Text& text) {
   return result;
 }
 
-/// The figures of the sections that the prose shows.
-std::vector<page::Picture> figures_in(std::string_view prose,
-                                      const std::vector<PaperSection>& sections) {
-  std::vector<page::Picture> shown;
-  for (const PaperSection& section : sections)
-    for (const page::Picture& figure : section.figures)
-      if (prose.find("(figures/" + figure.plot.name + ".svg)") != std::string_view::npos)
-        shown.push_back(figure);
-  return shown;
-}
-
 /// Makes article.<suffix> in `folder` by Pandoc. Returns false if Pandoc is missing or failed.
 bool typeset(const fs::path& folder, const std::string& suffix, std::vector<std::string> arguments,
              std::ostream& notes) {
@@ -75,9 +64,12 @@ std::string article_of(const std::vector<PaperSection>& sections) {
 
 ExitCode write_article(PaperData& data, const fs::path& folder, std::ostream& notes) {
   const std::vector<PaperSection> sections = make_sections(data, "all");
-  page::Page pictures;
-  pictures.add({"figures", "", {}});
-  pictures.sections.back().add(figures_in(article_prose(), sections));
+  const std::string prose = article_prose();
+  page::Section shown{"figures", ""};
+  for (const PaperSection& section : sections)
+    for (const page::Picture& figure : section.figures)
+      if (prose.find("(figures/" + figure.plot.name + ".svg)") != prose.npos) shown.add(figure);
+  page::Page pictures{.sections = {shown}};
   create_folder(folder);
   write_whole_file(folder / "article.md", article_of(sections));  // first: marks the folder as ours
   page::draw_pictures(pictures, folder, {.is_file_shown = true});

@@ -24,13 +24,13 @@ constexpr LabelledMeasure stage_columns[] = {{"rise", "Δx~max~ (mm)", 1e3},
                                              {"first_time90", "t~90~ (s)", 1.0},
                                              {"error", "error (g·h)", 1.0}};
 
-/// A table that compares some cases.
+/// A table of some cases. Those along the frequency are compared with the first of them, or with
+/// the paper.
 struct CaseTable {
   const char* section;
   std::vector<std::pair<const char*, Selection>> cases;  ///< names and rows
-  RunMeasure along = "frequency";                        ///< quantity that varies within a case
   RunMeasure exponent_along = "";                        ///< empty: no exponents
-  bool has_changes = false;                              ///< of each case against the first
+  RunMeasure along = "frequency";                        ///< quantity that varies within a case
   bool has_numbers = false;                              ///< the paper's, against each case
 };
 
@@ -41,14 +41,8 @@ const CaseTable case_tables[] = {
      {{"error ≤ 1e-3 g·h", "tightest"},
       {"error ≤ 1e-2 g·h, the campaign’s own", "frequency"},
       {"LMGC90’s rule", "rule"}},
-     "frequency",
-     "frequency",
-     true},
-    {"laws",
-     {{"Coulomb’s law", "laws solver!sap"}, {"its convex relaxation", "laws solver=sap"}},
-     "frequency",
-     "",
-     true},
+     "frequency"},
+    {"laws", {{"Coulomb’s law", "laws solver!sap"}, {"its convex relaxation", "laws solver=sap"}}},
     {"reading", {{"vibrated_box_paper", "reading"}}},
     // other packings: deposited in other ways, and of other grains
     {"deposits",
@@ -56,9 +50,7 @@ const CaseTable case_tables[] = {
       {"lid pressed, μ 0.8", "deposits lid_pressure>0 deposit_friction=0.8"},
       {"lid placed, μ 0.4", "deposits lid_pressure=0 deposit_friction=0.4"},
       {"lid placed, μ 0.8", "deposits lid_pressure=0 deposit_friction=0.8"}},
-     "frequency",
-     "frequency",
-     true},
+     "frequency"},
     {"preparation",
      {{"lid pressed, μ 0.4", "preparation lid_pressure=1 deposit_friction=0.4"},
       {"lid pressed, μ 0.8",
@@ -70,34 +62,27 @@ const CaseTable case_tables[] = {
       {"a shorter fall, lid placed, μ 0.4", "preparation name~fall"}},
      "frequency",
      "frequency",
-     false,
      true},
     {"shapes",
      {{"as the campaign’s", "shapes name~base"},
       {"angular and platy", "shapes name~platy"},
       {"spheres of 162 vertices", "shapes name~spheres"},
-      {"fractions by mass", "shapes name~mass"}},
-     "frequency",
-     "",
-     true},
+      {"fractions by mass", "shapes name~mass"}}},
     // other boxes and other loads
-    {"box", {{"5 Hz", "box frequency=5"}, {"20 Hz", "box frequency=20"}}, "length", "aspect"},
+    {"box", {{"5 Hz", "box frequency=5"}, {"20 Hz", "box frequency=20"}}, "aspect", "length"},
     {"loads",
      {{"f_max = 6 m g", "loads force_over_weight=6 largest_size>0.04"},
       {"f_max = 12 m g", "loads force_over_weight=12 largest_size>0.04"},
-      {"f_max = 6 m g, all at half scale", "loads force_over_weight=6 largest_size<0.04"}},
-     "frequency",
-     "",
-     true},
+      {"f_max = 6 m g, all at half scale", "loads force_over_weight=6 largest_size<0.04"}}},
     {"sizes",
      {{"similar boxes, H/L fixed", "sizes name~similar"},
       {"wider boxes, H/d fixed", "sizes name~wide"}},
-     "grains",
-     "grains_across"},
+     "grains_across",
+     "grains"},
     // choices that have to be made, each varied alone
-    {"sensitivity", {{"step h", "sensitivity friction=0.4 lid_raise=0.01"}}, "step"},
-    {"sensitivity", {{"friction μ", "sensitivity friction!0.4"}}, "friction"},
-    {"sensitivity", {{"gap under the lid", "sensitivity lid_raise!0.01"}}, "lid_raise"}};
+    {"sensitivity", {{"step h", "sensitivity friction=0.4 lid_raise=0.01"}}, "", "step"},
+    {"sensitivity", {{"friction μ", "sensitivity friction!0.4"}}, "", "friction"},
+    {"sensitivity", {{"gap under the lid", "sensitivity lid_raise!0.01"}}, "", "lid_raise"}};
 
 /// A case that has rows.
 struct Case {
@@ -226,20 +211,19 @@ page::Text scatter_words(const SampleMean& mean) {
 /// One of the paper's numbers: an exponent of nu, or a measure at the paper's 5 Hz.
 struct PaperNumber {
   const char* name;
-  PaperRange range;
   RunMeasure measure;
-  bool is_exponent;
+  PaperRange range;
+  bool is_exponent = false;
 };
 const PaperNumber paper_numbers[] = {
-    {"exponent of Δx~max~ in ν", PaperRange::exponent(-2.0), "rise", true},
-    {"exponent of v~max~ in ν", PaperRange::exponent(-1.0), "speed_in", true},
-    {"C at 5 Hz", PaperRange::roughly(paper::prefactor), "prefactor", false},
-    {"ρ before the drive", PaperRange::about(paper::solid_fraction_initial, 0.005),
-     "density_before", false},
-    {"ρ~0~, at 0.2 s", PaperRange::about(paper::solid_fraction_reference, 0.005),
-     "density_reference", false},
-    {"Δρ~1~/ρ~0~ a period at 5 Hz", PaperRange::roughly(paper::gain_per_period), "relative_gain",
-     false}};
+    {"exponent of Δx~max~ in ν", "rise", PaperRange::exponent(-2.0), true},
+    {"exponent of v~max~ in ν", "speed_in", PaperRange::exponent(-1.0), true},
+    {"C at 5 Hz", "prefactor", PaperRange::roughly(paper::prefactor)},
+    {"ρ before the drive", "density_before",
+     PaperRange::about(paper::solid_fraction_initial, 0.005)},
+    {"ρ~0~, at 0.2 s", "density_reference",
+     PaperRange::about(paper::solid_fraction_reference, 0.005)},
+    {"Δρ~1~/ρ~0~ a period at 5 Hz", "relative_gain", PaperRange::roughly(paper::gain_per_period)}};
 
 Found found_of(const PaperNumber& number, const Groups& groups) {
   if (!number.is_exponent) {
@@ -324,7 +308,7 @@ void add_table(PaperData& data, const CaseTable& what, PaperSection& section) {
   }
   section.add(stage_table(cases, unit_suffix(what.along), section));
   if (!what.exponent_along.empty()) add_exponents(what, cases, section);
-  if (what.has_changes) add_changes(what, cases, section);
+  if (what.along == "frequency" && !what.has_numbers) add_changes(what, cases, section);
 }
 
 }  // namespace

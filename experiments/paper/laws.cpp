@@ -52,20 +52,17 @@ std::vector<CurvePoint> distinct_points(const std::vector<Groups>& groups) {
 /// Least-squares fit of ln Delta x_max; `offsets` adds a factor for each series but the first.
 WeightedFit fit_points(const std::vector<CurvePoint>& points, const LogPolynomial& shape,
                        int values, double deviation, bool offsets) {
-  const auto count = static_cast<Eigen::Index>(points.size());
-  std::vector<size_t> present;
+  std::vector<size_t> present;  // points come series by series
   for (const CurvePoint& point : points)
-    if (std::find(present.begin(), present.end(), point.series) == present.end())
-      present.push_back(point.series);
-  const auto extra = static_cast<Eigen::Index>(offsets ? present.size() - 1 : 0);
-  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(count, values + extra);
-  Eigen::VectorXd y(count), error(count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const CurvePoint& point = points[static_cast<size_t>(k)];
+    if (present.empty() || present.back() != point.series) present.push_back(point.series);
+  const size_t extra = offsets ? present.size() - 1 : 0;
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(points.size(), values + extra);
+  Eigen::VectorXd y(points.size()), error(points.size());
+  for (size_t k = 0; k < points.size(); ++k) {
+    const CurvePoint& point = points[k];
     const double u = std::log(point.x / shape.middle);
     for (int power = 0; power < values; ++power) design(k, power) = std::pow(u, power);
-    for (Eigen::Index s = 0; s < extra; ++s)
-      design(k, values + s) = point.series == present[static_cast<size_t>(s) + 1] ? 1.0 : 0.0;
+    for (size_t s = 0; s < extra; ++s) design(k, values + s) = point.series == present[s + 1];
     y[k] = point.log_rise();
     error[k] = deviation / std::sqrt(static_cast<double>(point.group.samples.size()));
   }
@@ -75,8 +72,7 @@ WeightedFit fit_points(const std::vector<CurvePoint>& points, const LogPolynomia
 LogPolynomial polynomial(const std::vector<CurvePoint>& points, int values, double deviation) {
   LogPolynomial result;
   double logs = 0.0;
-  for (const CurvePoint& point : points)
-    logs += std::log(point.x) / static_cast<double>(points.size());
+  for (const CurvePoint& point : points) logs += std::log(point.x) / points.size();
   result.middle = std::exp(logs);
   result.fit = fit_points(points, result, values, deviation, false);
   return result;
@@ -99,16 +95,6 @@ Curve along(const MasterCurve& all, const Function& function, const page::Text& 
   return curve;
 }
 
-/// An area between two functions of X [m], drawn over X in mm.
-template <class Low, class High>
-Curve band(const MasterCurve& all, const Low& low, const High& high) {
-  Curve area = along(all, high, "95 %", Ink::light);
-  area.y_low = along(all, low, "", Ink::light).y;
-  area.mark = Mark::area;
-  area.opacity = 0.5;
-  return area;
-}
-
 /// Means of C along X; their bars are the errors that the fit gives them.
 Curve curve_of(const MasterCurve& all, const std::vector<CurvePoint>& shown, const Series& series) {
   Points points;
@@ -127,12 +113,18 @@ Panel prefactor_panel(const MasterCurve& all, const std::vector<CurvePoint>& sma
               .y_label = page::marked("*C* = Δ*x*~max~ / *X*"),
               .log_x = true,
               .y_min = 0.0};
-  const auto bound = [&](double x, double sign) {
-    return all.curve.at(x) / x * std::exp(sign * half_width(all, all.curve.row(x)));
+  const auto bound = [&](double sign) {
+    const auto c = [&](double x) {
+      return all.curve.at(x) / x * std::exp(sign * half_width(all, all.curve.row(x)));
+    };
+    return along(all, c, "95 %", Ink::light);
   };
-  if (all.between.degrees_of_freedom > 0)
-    panel.curves.push_back(band(
-        all, [&](double x) { return bound(x, -1.0); }, [&](double x) { return bound(x, 1.0); }));
+  if (all.between.degrees_of_freedom > 0) {
+    Curve& band = panel.curves.emplace_back(bound(1.0));
+    band.y_low = bound(-1.0).y;
+    band.mark = Mark::area;
+    band.opacity = 0.5;
+  }
   panel.curves.push_back(along(
       all, [&](double x) { return all.curve.at(x) / x; }, "quadratic in ln X", Ink::black));
   panel.curves.push_back(along(
@@ -175,8 +167,6 @@ page::Table along_table(const MasterCurve& all) {
 page::Text percent_words(double deviation) { return page::number(100.0 * deviation, 2) + " %"; }
 
 page::Values words_for(const MasterCurve& all) {
-  const double c_small = all.curve.at(all.least) / all.least,
-               c_large = all.curve.at(all.most) / all.most;
   const auto [small, large] = std::ranges::minmax(all.points, {}, &CurvePoint::x);
   const auto mean = [](const CurvePoint& point, RunMeasure measure) {
     return page::number(point.group.mean(measure).mean, 2);
@@ -194,8 +184,8 @@ page::Values words_for(const MasterCurve& all) {
           {"offset", percent_words(all.largest_offset)},
           {"least", page::number(to_mm * all.least)},
           {"most", page::number(to_mm * all.most)},
-          {"c_small", page::number(c_small)},
-          {"c_large", page::number(c_large)},
+          {"c_small", page::number(all.curve.at(all.least) / all.least)},
+          {"c_large", page::number(all.curve.at(all.most) / all.most)},
           {"n_small", page::number(all.curve.fit.at(all.curve.slope_row(all.least)))},
           {"n_large", page::number(all.curve.fit.at(all.curve.slope_row(all.most)))},
           {"f_small", mean(small, "push_over_weight")},
@@ -234,15 +224,12 @@ std::vector<Law> all_laws() {
       fast{"20 Hz", "box frequency=20", Ink::vermilion},
       beyond{"ν ≥ 10 Hz", "frequency frequency>9", Ink::blue, triangle, "frequency"};
   // a run that is in several families is a point of the first
-  const std::vector<Series> everything{
-      all_series[0],
-      all_series[1],
-      all_series[2],
-      all_series[3],
-      {"L/H", "box", Ink::orange},
-      {"large loads", "loads", Ink::black, triangle},
-      {"deposit", "deposits", Ink::grey, square},
-      {"grains, size", "shapes; sizes; reading", Ink::sky, diamond}};
+  std::vector<Series> everything = all_series;
+  everything.insert(everything.end(),
+                    {{"L/H", "box", Ink::orange},
+                     {"large loads", "loads", Ink::black, triangle},
+                     {"deposit", "deposits", Ink::grey, square},
+                     {"grains, size", "shapes; sizes; reading", Ink::sky, diamond}});
   return {{"fig9", "fig9", {all_series[0]}, frequency, rise, -2.0, 10.0},
           {"fig9", "fig9_speed", {all_series[0]}, frequency, speed, -1.0, 10.0},
           {"fig10", "fig10", {all_series[1]}, force, rise, -1.0, 3.0},
@@ -303,8 +290,10 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
     for (Group& group : data.settings(family.rows))
       if (law.is_of_paper() || seen.insert(group.samples.front()->record).second)
         distinct.push_back(std::move(group));
-    std::ranges::sort(distinct, {},
-                      [&](const Group& group) { return group.mean(law.x.measure).mean; });
+    std::ranges::sort(distinct, {}, [&](const Group& group) {
+      const double x = group.mean(law.x.measure).mean;
+      return x > 0.0 ? x : 0.0;  // NaN, where it is not known, has no order
+    });
     const Points points =
         points_of(distinct, law.x.measure, law.y.measure, law.x.factor, law.y.factor);
     if (points.x.empty()) continue;
@@ -353,9 +342,8 @@ void add_law(PaperData& data, const Law& law, page::Table& table, PaperSection& 
 /// on one curve, and how far the returned ones lie from the curve without them.
 std::vector<CurvePoint> points_beside(const char* name, const MasterCurve& all,
                                       const std::vector<Groups>& groups, PaperSection& section) {
-  MasterCurve more = fit_master_curve(groups);
-  std::vector<CurvePoint> others = std::move(more.points);
-  const size_t count = others.size();
+  const MasterCurve more = fit_master_curve(groups);
+  std::vector<CurvePoint> others = more.points;
   std::erase_if(others, [&](const CurvePoint& point) {
     return std::ranges::any_of(all.points, [&](const CurvePoint& known) {
       return known.group.samples.front() == point.group.samples.front();
@@ -366,7 +354,7 @@ std::vector<CurvePoint> points_beside(const char* name, const MasterCurve& all,
   for (const CurvePoint& point : others)
     off.push_back(std::exp(point.log_rise()) / all.curve.at(point.x) - 1.0);
   const Statistics offsets = statistics(off);
-  section.report(name, {{"points", std::to_string(count)},
+  section.report(name, {{"points", std::to_string(more.points.size())},
                         {"others", std::to_string(others.size())},
                         {"curve", words_of(more.curve_misfit)},
                         {"least", percent_words(offsets.min)},
@@ -379,19 +367,16 @@ std::vector<CurvePoint> points_beside(const char* name, const MasterCurve& all,
 
 Eigen::VectorXd LogPolynomial::row(double x) const {
   Eigen::VectorXd powers(fit.value.size());
-  for (Eigen::Index k = 0; k < powers.size(); ++k)
-    powers[k] = std::pow(std::log(x / middle), static_cast<double>(k));
+  for (Eigen::Index k = 0; k < powers.size(); ++k) powers[k] = std::pow(std::log(x / middle), k);
   return powers;
 }
 
 Eigen::VectorXd LogPolynomial::slope_row(double x) const {
-  Eigen::VectorXd slope = Eigen::VectorXd::Zero(fit.value.size());
-  for (Eigen::Index k = 1; k < slope.size(); ++k)
-    slope[k] = static_cast<double>(k) * std::pow(std::log(x / middle), static_cast<double>(k - 1));
+  const Eigen::VectorXd powers = row(x);
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(powers.size());
+  for (Eigen::Index k = 1; k < slope.size(); ++k) slope[k] = k * powers[k - 1];
   return slope;
 }
-
-double LogPolynomial::at(double x) const { return std::exp(fit.at(row(x))); }
 
 VarianceRatio misfit_of(const WeightedFit& fit, const PooledError& error) {
   if (error.degrees_of_freedom < 1) return {};

@@ -20,9 +20,9 @@ struct LogPolynomial {
   WeightedFit fit;
   double middle = 1.0;  ///< X0 [m]
 
-  Eigen::VectorXd row(double x) const;        ///< 1, u, u^2 ...
-  Eigen::VectorXd slope_row(double x) const;  ///< its derivative
-  double at(double x) const;                  ///< Delta x_max [m]
+  Eigen::VectorXd row(double x) const;                            ///< 1, u, u^2 ...
+  Eigen::VectorXd slope_row(double x) const;                      ///< its derivative
+  double at(double x) const { return std::exp(fit.at(row(x))); }  ///< Delta x_max [m]
 };
 
 struct MasterCurve {

@@ -51,13 +51,11 @@ Mat3 StoredState::stress() const {
 }
 
 Vec3 StoredState::centre(int body, const PairForce& pair) const {
-  return body < system.grain_count ? at.state.pose[static_cast<size_t>(body)].position
-                                   : pair.position;
+  return body < system.grain_count ? at.state.pose[body].position : pair.position;
 }
 
 Vec3 StoredState::wall(BoxWall which) const {
-  return at.state.pose[static_cast<size_t>(system.grain_count) + static_cast<size_t>(which)]
-      .position;
+  return at.state.pose[system.grain_count + which].position;
 }
 
 std::vector<MotionRun> read_motion(PaperData& data) {

@@ -181,8 +181,7 @@ Panel portrait_panel(const Portrait& orbits, const std::string& x_label,
   return panel;
 }
 
-/// A panel over the paper's frequencies, 1 to 60 Hz. The label is in the notation of
-/// page::marked().
+/// A panel over the paper's frequencies, 1 to 60 Hz; the label is in page::marked()'s notation.
 Panel frequency_panel(const std::string& label) {
   return {.x_label = page::marked("*ν*  (Hz)"),
           .y_label = page::marked(label),
@@ -257,8 +256,10 @@ void fill_motion(PaperData& data, PaperSection& section) {
   panel.lines = {{paper_window.begin, "the paper’s 0.2 s", false, Ink::vermilion}};
   section.draw("fig3_times", {.height = 400, .panels = {panel}});
   // the paper takes rho_0 at 0.2 s for every frequency: the slowest first contraction decides
-  const Group& slowest = *std::ranges::max_element(
-      groups, {}, [](const Group& group) { return group.mean("first_time90").mean; });
+  const Group& slowest = *std::ranges::max_element(groups, {}, [](const Group& group) {
+    const double time = group.mean("first_time90").mean;
+    return time > 0.0 ? time : 0.0;  // NaN, where it is not known, has no order
+  });
   const SampleMean latest = slowest.mean("first_time90");
   section.claim("fig3.everywhere",
                 {{"time", words_of(latest)}, {"frequency", slowest.label + " Hz"}},

@@ -32,8 +32,7 @@ struct RunColumn {
 /// The columns of runs.csv after its texts.
 const RunColumn all_columns[] = {
     // the settings
-    {"seed", "1", "of the grains: the sample",
-     [](Run r) { return static_cast<double>(r.facts.seed); }},
+    {"seed", "1", "of the grains: the sample", [](Run r) -> double { return r.facts.seed; }},
     {"frequency", "Hz", "nu", [](Run r) { return r.facts.frequency; }},
     {"force_over_weight", "1", "f_max/(m g)",
      [](Run r) { return r.facts.f_max / (r.facts.grain_mass * r.facts.gravity); }},
@@ -62,8 +61,7 @@ const RunColumn all_columns[] = {
      [](Run r) { return r.error_counted; }},
     {"penetration", "m", "deepest overlap", [](Run r) { return r.penetration_max; }},
     // the motion
-    {"periods", "1", "that count",
-     [](Run r) { return static_cast<double>(r.wall.periods.size()); }},
+    {"periods", "1", "that count", [](Run r) -> double { return r.wall.periods.size(); }},
     {"rise", "m", "Delta x_max", [](Run r) { return r.rise.mean; }},
     {"speed_in", "m/s", "v_max", [](Run r) { return r.speed_in.mean; }},
     {"net", "m", "contraction per period", [](Run r) { return -r.net.mean; }},
@@ -106,16 +104,13 @@ const RunColumn all_columns[] = {
      [](Run r) { return r.roll.circulation; }},
 };
 
-/// A column of text at the beginning of a table.
-struct TextColumn {
-  const char* name;
-  std::string RunRow::*text;
-};
-constexpr TextColumn text_columns[] = {{"name", &RunRow::name},
-                                       {"stage", &RunRow::stage},
-                                       {"key", &RunRow::key},
-                                       {"record", &RunRow::record},
-                                       {"solver", &RunRow::solver}};
+/// The columns of text before them.
+constexpr std::pair<const char*, std::string RunRow::*> text_columns[] = {
+    {"name", &RunRow::name},
+    {"stage", &RunRow::stage},
+    {"key", &RunRow::key},
+    {"record", &RunRow::record},
+    {"solver", &RunRow::solver}};
 constexpr size_t texts = std::size(text_columns);
 
 /// The place of a column among the numbers. Throws std::invalid_argument naming the column.
@@ -200,14 +195,14 @@ std::string unit_suffix(RunMeasure measure) {
 
 std::string runs_csv(std::span<const RunRow> rows) {
   CsvWriter csv;
-  for (const TextColumn& column : text_columns) csv.add(column.name);
+  for (const auto& [name, text] : text_columns) csv.add(name);
   for (const RunColumn& column : all_columns) csv.add(column.name);
   csv.end_row();
   for (size_t k = 0; k < texts; ++k) csv.add("text");
   for (const RunColumn& column : all_columns) csv.add(column.unit);
   csv.end_row();
   for (const RunRow& row : rows) {
-    for (const TextColumn& column : text_columns) csv.add(row.*column.text);
+    for (const auto& [name, text] : text_columns) csv.add(row.*text);
     for (const double& value : row.numbers)  // the first is the seed: all digits
       csv.add(number_cell(value, &value == row.numbers.data() ? 17 : 9));
     csv.end_row();
@@ -220,7 +215,7 @@ std::vector<RunRow> read_runs_csv(const std::filesystem::path& file) {
   if (!reader.next()) reader.fail("empty");
   const std::vector<std::string> names(reader.cells().begin(), reader.cells().end());
   for (size_t k = 0; k < texts; ++k)
-    if (k >= names.size() || names[k] != text_columns[k].name)
+    if (k >= names.size() || names[k] != text_columns[k].first)
       reader.fail("not a report's runs.csv: it begins with name,stage,key,record,solver");
   if (!reader.next()) reader.fail("the line of units is missing");
   std::vector<RunRow> rows;
@@ -228,7 +223,7 @@ std::vector<RunRow> read_runs_csv(const std::filesystem::path& file) {
     reader.require_cells(names.size());
     const auto cells = reader.cells();
     RunRow& row = rows.emplace_back();
-    for (size_t k = 0; k < texts; ++k) row.*text_columns[k].text = cells[k];
+    for (size_t k = 0; k < texts; ++k) row.*text_columns[k].second = cells[k];
     for (const RunColumn& column : all_columns)
       if (const auto k = static_cast<size_t>(std::ranges::find(names, column.name) - names.begin());
           k < names.size() && !cells[k].empty())
@@ -391,33 +386,29 @@ std::vector<const RunRow*> PaperData::rows(const Selection& selection) {
 }
 
 Groups PaperData::groups(const Selection& selection, RunMeasure along) {
-  std::map<double, Group> values;
+  Groups groups;
   for (const RunRow* row : rows(selection)) {
     const double value = rounded((*row)[along]);
     if (!std::isfinite(value)) continue;
-    Group& group = values[value];
-    group.value = value;
-    group.label = printed("%g", value);
-    if (!group.like(*row)) group.samples.push_back(row);
+    auto group = std::ranges::find(groups, value, &Group::value);
+    if (group == groups.end()) group = groups.insert(group, {value, printed("%g", value)});
+    if (!group->like(*row)) group->samples.push_back(row);
   }
-  Groups groups;
-  for (auto& [value, group] : values) groups.push_back(std::move(group));
+  std::ranges::sort(groups, {}, &Group::value);
   return groups;
 }
 
 Groups PaperData::settings(const Selection& selection) {
-  std::vector<Group> groups;
-  std::map<std::string, size_t> known;  // the place of a setting's group
-  std::set<std::string> seen;           // equal runs and equal records count once
+  Groups groups;
+  std::set<std::string> seen;  // equal runs and equal records count once
   for (const RunRow* row : rows(selection)) {
     if (!seen.insert(row->record.empty() ? row->key : row->record).second) continue;
     std::string setting = row->stage + row->name;
     if (const size_t seed = setting.find("seed="); seed != std::string::npos)
       setting.erase(seed, setting.find_first_not_of("0123456789", seed + 5) - seed);
-    const auto [place, is_new] = known.emplace(setting, groups.size());
-    if (is_new) groups.push_back({0.0, setting});
-    Group& group = groups[place->second];
-    if (!group.like(*row)) group.samples.push_back(row);
+    auto group = std::ranges::find(groups, setting, &Group::label);
+    if (group == groups.end()) group = groups.insert(group, {0.0, setting});
+    if (!group->like(*row)) group->samples.push_back(row);
   }
   return groups;
 }

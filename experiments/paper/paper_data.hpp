@@ -1,10 +1,8 @@
 #pragma once
 // The results of a campaign so far: one row for each run that is finished or whose row was given,
 // and the statistics of rows. Missing runs are counted and reported; they are never an error.
-//
-// A selection takes rows by stage and by conditions on their values. Its groups are the values of
-// one varied quantity, each with its samples, one for each seed. Figures draw means over samples; a
-// comparison of two groups compares every sample with the same sample of the other group.
+// Figures draw means over samples; a comparison of two groups of rows compares every sample with
+// the same sample of the other group.
 
 #include <filesystem>
 #include <map>
@@ -35,13 +33,8 @@ std::vector<PlannedRun> read_campaign(const CampaignSettings& settings);
 /// The stage of a run: its name up to the first "-" or ".".
 std::string stage_of(const PlannedRun& run);
 
-/// The name of a number of a run: a column of runs.csv, or a number that follows from columns:
-///   relative_gain, first_compaction         Delta rho_1/rho_0; rho_0 over rho before, less 1
-///   grain_share    m/(m + m_w)
-///   grains_across  cube root of the number of grains
-///   carried_share, yield_over_push          M/m; the load where the stroke begins, over F
-///   theory_ratio, aspect_prefactor          C over the theory's; C L/H
-/// SI units; NaN: not known.
+/// The name of a number of a run: a column of runs.csv, or a number that RunRow::operator[] takes
+/// from columns. SI units; NaN: not known.
 using RunMeasure = std::string_view;
 /// The unit as it is written behind a value: " Hz"; empty without a unit.
 std::string unit_suffix(RunMeasure measure);

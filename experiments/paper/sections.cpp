@@ -22,19 +22,6 @@ constexpr double least_law_p = 0.01;
 
 constexpr const char* every_section = "all";
 
-/// The stages that a target runs.
-std::set<std::string> needed(const std::vector<PlannedRun>& campaign, const std::string& target) {
-  std::set<std::string> stages;
-  for (const PlannedRun& run : campaign)
-    if (target == every_section || target == stage_of(run)) stages.insert(stage_of(run));
-  for (const ReportSection& section : paper_sections())
-    if (target == section.name) stages.insert(section.stages.begin(), section.stages.end());
-  if (stages.empty())
-    throw std::invalid_argument("paper: '" + target + "' is not one of " +
-                                joined(paper_targets(campaign)));
-  return stages;
-}
-
 std::string listed(const std::map<std::string, int>& counts) {
   std::string text;
   for (const auto& [name, count] : counts)
@@ -81,14 +68,11 @@ const char* word_of(Agreement agreement) {
   return name_in({"agrees", "partly", "DIFFERS", "reported"}, agreement);
 }
 
-PaperRange PaperRange::widened() const {
-  const double width = high - low;
-  return std::isfinite(width) ? PaperRange{low - width, high + width} : *this;
-}
-
 Agreement agreement_of(const PaperRange& paper, const Found& found) {
   if (!std::isfinite(found.low) || !std::isfinite(found.high)) return Agreement::reported;
-  const PaperRange wide = paper.widened();
+  const double width = paper.high - paper.low;  // infinite: a bound, which is not widened
+  const PaperRange wide =
+      std::isfinite(width) ? PaperRange{paper.low - width, paper.high + width} : paper;
   const bool is_sharp = wide.holds(found.low) && wide.holds(found.high),
              holds = std::isnan(found.law_p) || found.law_p >= least_law_p;
   if (paper.holds(found.value) && is_sharp && holds && found.is_whole) return Agreement::agrees;
@@ -156,7 +140,14 @@ std::vector<std::string> paper_targets(const std::vector<PlannedRun>& campaign) 
 }
 
 std::vector<Plan> stages_of(const PaperData& data, const std::string& target) {
-  const std::set<std::string> wanted = needed(data.campaign(), target);
+  std::set<std::string> wanted;
+  for (const PlannedRun& run : data.campaign())
+    if (target == every_section || target == stage_of(run)) wanted.insert(stage_of(run));
+  for (const ReportSection& section : paper_sections())
+    if (target == section.name) wanted.insert(section.stages.begin(), section.stages.end());
+  if (wanted.empty())
+    throw std::invalid_argument("paper: '" + target + "' is not one of " +
+                                joined(paper_targets(data.campaign())));
   std::vector<Plan> stages;
   for (const PlannedRun& run : data.campaign()) {
     const std::string stage = stage_of(run), name = "paper-" + stage;
@@ -170,8 +161,7 @@ std::vector<Plan> stages_of(const PaperData& data, const std::string& target) {
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target) {
   std::vector<PaperSection> made;
   for (const ReportSection& section : paper_sections()) {
-    const bool draws_stage =
-        std::ranges::any_of(section.stages, [&](const char* stage) { return target == stage; });
+    const bool draws_stage = std::ranges::count(section.stages, target) > 0;
     if (target != section.name && target != every_section && !draws_stage) continue;
     const std::string name = section.name;
     PaperSection& part =

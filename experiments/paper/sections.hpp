@@ -15,23 +15,12 @@
 
 namespace ballast {
 
-// One rule decides whether Ballast and the paper agree. It is applied to every row of the report's
-// first table; words("paper.rule") state it.
-//
-// The paper's statement is a range of values, Ballast's result a value with its 95 % interval.
-//   agrees    the value lies in the range, its interval within three times the range, the law whose
-//             parameter it is holds within the samples' scatter (p >= 0.01), and the whole of the
-//             paper's statement was tested
-//   partly    the value lies in the range, but some of the other three are missing; or it lies
-//             within three times the range
-//   DIFFERS   the value lies farther off, and its interval does not reach the range
-//   reported  there is no interval, or it reaches the range although the value lies far off: not
-//             decided
-
+/// One rule decides whether Ballast and the paper agree: words("paper.rule") in texts/report.md.
+/// The paper's statement is a range of values, Ballast's result a value with its 95 % interval.
 enum class Agreement { agrees, partly, differs, reported };
 const char* word_of(Agreement agreement);
 
-/// The values that the paper allows. One side may be infinite; such a range is never widened.
+/// The values that the paper allows. One side may be infinite.
 struct PaperRange {
   double low, high;
 
@@ -45,7 +34,6 @@ struct PaperRange {
   static PaperRange at_least(double value) { return {value, HUGE_VAL}; }
 
   bool holds(double value) const { return low <= value && value <= high; }
-  PaperRange widened() const;  ///< three times as wide, about the same middle
 };
 
 /// A result of Ballast.
@@ -147,13 +135,16 @@ Curve curve_of(const Function& function, const Drawn& range, const page::Text& t
 /// The figure's data: panel, curve, x, y, y_error, y_low as CSV.
 std::string figure_csv(const Figure& figure);
 
+/// Adds figures, tables, claims and findings to a section.
+using FillSection = void(PaperData& data, PaperSection& section);
+
 /// One section of the report. `name` is the target of `ballast paper` that makes it. Its heading is
 /// words(name.heading), its first paragraph words(name.intro). `fill` adds to the figures and
 /// tables that its rows in the tables of laws and cases give; null: nothing.
 struct ReportSection {
   const char* name;  ///< "fig9"
   std::vector<const char*> stages;
-  void (*fill)(PaperData& data, PaperSection& section) = nullptr;
+  FillSection* fill = nullptr;
 };
 /// All sections: the main result first, then in the paper's order. A new one needs a row in
 /// sections.cpp, words in texts/, and a row of a table (laws.cpp, cases.cpp) or its own function.
@@ -167,25 +158,12 @@ std::vector<Plan> stages_of(const PaperData& data, const std::string& target);
 /// The sections of a target; if it is a stage, all sections that draw the stage.
 std::vector<PaperSection> make_sections(PaperData& data, const std::string& target);
 
-/// Add the figures and tables that are rows of a table: power laws (laws.cpp), cases (cases.cpp).
-void add_laws(PaperData& data, PaperSection& section);
-void add_cases(PaperData& data, PaperSection& section);
-
-// the functions that fill sections beside these tables
-void fill_curve(PaperData& data, PaperSection& section);   ///< all varied runs on one curve
-void fill_theory(PaperData& data, PaperSection& section);  ///< exponents of F and of the mass
-void fill_rates(PaperData& data, PaperSection& section);   ///< Fig. 13 (Eqs. 4 and 5)
-void fill_replicas(PaperData& data, PaperSection& section);
-void fill_errors(PaperData& data, PaperSection& section);      ///< errors of all runs
-void fill_reading(PaperData& data, PaperSection& section);     ///< both scenes beside the paper
-void fill_compaction(PaperData& data, PaperSection& section);  ///< the rate by three windows
-void fill_motion(PaperData& data, PaperSection& section);      ///< Fig. 3: x(t), first contraction
-void fill_forces(PaperData& data, PaperSection& section);      ///< Fig. 4: f_g(x), the jam
-void fill_model(PaperData& data, PaperSection& section);       ///< Fig. 5: Eq. 2 integrated
-void fill_velocities(PaperData& data, PaperSection& section);  ///< Fig. 6: grains, the roll
-void fill_chains(PaperData& data, PaperSection& section);      ///< Fig. 7: chains, stress
-void fill_portraits(PaperData& data, PaperSection& section);   ///< Fig. 8: phase portraits
-void fill_density(PaperData& data, PaperSection& section);     ///< Fig. 12: solid fraction
+/// Add what is a row of a table: power laws (laws.cpp), cases (cases.cpp).
+FillSection add_laws, add_cases;
+// the functions of single sections, in the order of paper_sections()
+FillSection fill_curve, fill_motion, fill_forces, fill_model, fill_velocities, fill_chains,
+    fill_portraits, fill_density, fill_rates, fill_replicas, fill_errors, fill_compaction,
+    fill_reading, fill_theory;
 
 /// Writes the report of these sections into `folder`, each file whole or not at all. A figure that
 /// gnuplot cannot draw becomes a notice. Throws Error.

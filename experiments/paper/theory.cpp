@@ -28,22 +28,18 @@ class LogFits {
 
   /// One value for each setting.
   Eigen::VectorXd log(RunMeasure measure) const {
-    Eigen::VectorXd values(static_cast<Eigen::Index>(size()));
-    for (Eigen::Index k = 0; k < values.size(); ++k)
-      values[k] = settings_[static_cast<size_t>(k)].log_mean(measure);
+    Eigen::VectorXd values(size());
+    for (size_t k = 0; k < size(); ++k) values[k] = settings_[k].log_mean(measure);
     return values;
   }
 
   /// Fits ln C by a constant (value 0) and these columns (values 1, 2 ...).
   WeightedFit fit(const std::vector<Eigen::VectorXd>& columns) const {
-    const auto count = static_cast<Eigen::Index>(size());
-    Eigen::MatrixXd design = Eigen::MatrixXd::Ones(count, 1 + std::ssize(columns));
-    for (Eigen::Index k = 1; k < design.cols(); ++k)
-      design.col(k) = columns[static_cast<size_t>(k) - 1];
-    Eigen::VectorXd errors(count);
-    for (Eigen::Index k = 0; k < count; ++k)
-      errors[k] = error_.deviation /
-                  std::sqrt(static_cast<double>(settings_[static_cast<size_t>(k)].samples.size()));
+    Eigen::MatrixXd design = Eigen::MatrixXd::Ones(size(), 1 + columns.size());
+    for (size_t k = 0; k < columns.size(); ++k) design.col(1 + k) = columns[k];
+    Eigen::VectorXd errors(size());
+    for (size_t k = 0; k < size(); ++k)
+      errors[k] = error_.deviation / std::sqrt(static_cast<double>(settings_[k].samples.size()));
     return fit_weighted(design, log("prefactor"), errors);
   }
   page::Text exponent(const WeightedFit& fit, Eigen::Index k) const {

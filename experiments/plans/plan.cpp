@@ -20,9 +20,8 @@ PlannedRun planned_run(const std::string& name, const std::string& text,
   const ResolvedScene resolved = resolve_run(text, overrides);
   const Scene& scene = resolved.scene;
   PlannedRun run{name, text, overrides, resolved.key, {}, scene.step_count()};
-  const double bodies =
-      scene.grains ? scene.grains->count : static_cast<double>(scene.bodies.size());
-  run.work = bodies * static_cast<double>(run.steps);
+  const double bodies = scene.grains ? scene.grains->count : std::ssize(scene.bodies);
+  run.work = bodies * run.steps;
   if (!scene.grains) return run;
   run.packing = packing_key(scene);
   const DepositSpec& deposit = scene.deposit;
@@ -122,8 +121,7 @@ Where read_where(TomlTable& table, const std::vector<Axis>& axes) {
     table.fail("when", "no condition, expected when = { \"a varied key\" = its values }");
   // A condition that no member can meet is a mistake.
   for (const Axis& condition : where.when) {
-    const auto axis = std::find_if(axes.begin(), axes.end(),
-                                   [&](const Axis& a) { return a.key == condition.key; });
+    const auto axis = std::ranges::find(axes, condition.key, &Axis::key);
     if (axis == axes.end()) table.fail("when", condition.key + " is not varied here");
     for (const std::string& value : condition.values)
       if (!contains(axis->values, value)) table.fail("when", condition.key + " never is " + value);
@@ -147,29 +145,23 @@ Grid read_grid(TomlTable& table, const fs::path& file, const PlannedRun& base) {
   return grid;
 }
 
-/// A value as part of a run's name.
-std::string name_part(std::string value) {
-  std::erase(value, '"');
-  return made_plain(value, ".-");
-}
-
 /// The run at chosen[a] of each axis a. The overrides of `where` come last and replace others.
 PlannedRun member(const Grid& grid, const std::vector<size_t>& chosen) {
   PlannedRun run = grid.base;
   const auto value_of = [&](const std::string& key) {
-    size_t a = 0;
-    while (grid.axes[a].key != key) ++a;
+    const auto a = std::ranges::find(grid.axes, key, &Axis::key) - grid.axes.begin();
     return grid.axes[a].values[chosen[a]];
   };
-  // The name says the values, the overrides set them.
   for (const Axis& axis : grid.axes) {
-    run.name += '-' + axis.key + '=' + name_part(value_of(axis.key));
-    run.overrides.push_back(axis.key + '=' + value_of(axis.key));
+    std::string value = value_of(axis.key);
+    run.overrides.push_back(axis.key + '=' + value);
+    std::erase(value, '"');
+    run.name += '-' + axis.key + '=' + made_plain(value, ".-");
   }
   for (const Where& where : grid.where) {
-    const bool holds = std::all_of(
-        where.when.begin(), where.when.end(),
-        [&](const Axis& condition) { return contains(condition.values, value_of(condition.key)); });
+    const bool holds = std::ranges::all_of(where.when, [&](const Axis& condition) {
+      return contains(condition.values, value_of(condition.key));
+    });
     if (holds) run.overrides.insert(run.overrides.end(), where.set.begin(), where.set.end());
   }
   return run;
@@ -234,7 +226,6 @@ Plan plan_of(const std::string& toml, const fs::path& file) {
                   ": expected several smaller plans");
     plan.runs.push_back(std::move(run));
   };
-  // First come the single runs, then the members of each grid.
   for (TomlTable& table : runs) {
     const std::string name = table.text("name");
     PlannedRun run = read_base(table, file, base);

@@ -49,6 +49,11 @@ std::vector<std::string> run_arguments(const fs::path& results, const PlannedRun
   return words;
 }
 
+long count(const std::vector<Task>& tasks, bool is_run, TaskState state) {
+  return std::ranges::count_if(
+      tasks, [&](const Task& task) { return task.is_run() == is_run && task.state == state; });
+}
+
 }  // namespace
 
 long steps_in_log(const fs::path& run_folder) {
@@ -110,20 +115,10 @@ double work_done(const std::vector<Task>& tasks) {
     if (task.state == TaskState::finished)
       done += task.work;
     else if (task.is_run() && task.steps > 0)
-      done += task.work * std::min(1.0, static_cast<double>(steps_in_log(task.folder)) /
-                                            static_cast<double>(task.steps));
+      done += task.work * std::min(1.0, 1.0 * steps_in_log(task.folder) / task.steps);
   }
   return done;
 }
-
-namespace {
-
-long count(const std::vector<Task>& tasks, bool is_run, TaskState state) {
-  return std::ranges::count_if(
-      tasks, [&](const Task& task) { return task.is_run() == is_run && task.state == state; });
-}
-
-}  // namespace
 
 std::string plan_progress(const std::vector<Task>& tasks, double work_before, double seconds) {
   double all = 0.0;
@@ -198,17 +193,10 @@ namespace {
 class Engine {
  public:
   Engine(const Plan& plan, const PlanOptions& options, std::vector<Task> tasks)
-      : plan_(plan),
-        options_(options),
-        program_(executable_path()),
-        tasks_(std::move(tasks)),
-        finished_before_(count(tasks_, true, TaskState::finished)),
-        work_before_(work_done(tasks_)),
-        line_(options.style, std::cerr) {}
+      : plan_(plan), options_(options), tasks_(std::move(tasks)) {}
 
   ExitCode execute() {
     ExitCode stopped = ExitCode::ok;  // the reason to stop early; ok: none
-    // Collects ended tasks, starts the ones that can start, and shows the progress.
     while (start_what_can(stopped == ExitCode::ok) || !workers_.empty()) {
       collect();
       if (stopped == ExitCode::ok &&
@@ -326,11 +314,11 @@ class Engine {
 
   const Plan& plan_;
   const PlanOptions& options_;
-  fs::path program_;
+  fs::path program_ = executable_path();
   std::vector<Task> tasks_;
-  long finished_before_;
-  double work_before_;
-  StatusLine line_;
+  long finished_before_ = count(tasks_, true, TaskState::finished);
+  double work_before_ = work_done(tasks_);
+  StatusLine line_{options_.style, std::cerr};
   Stopwatch watch_;
   double indexed_ = 0.0, shown_ = 0.0;
   std::string failure_;                                      // of the first that failed

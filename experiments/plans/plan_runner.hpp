@@ -1,12 +1,6 @@
 #pragma once
-// Many runs in one folder of results: the tasks, the engine that carries them out, each run in a
-// process of its own, and the same tasks as lines for a shell.
-//
-//   <results>/runs/<key>/   the runs
-//   <results>/packings/     packings, each deposited once
-//   <results>/logs/         output of the processes: <key>.log, packing-<key>.log
-//   <results>/index.csv     plan,name,key,state,steps_done,steps,seconds,error_mean,commit: one row
-//                           per run of every plan
+// Many runs in one folder of results (docs/manual/plans.md): the tasks, the engine that carries
+// them out, each run in a process of its own, and the same tasks as lines for a shell.
 
 #include <filesystem>
 #include <set>
@@ -31,9 +25,8 @@ std::string state_of(const std::filesystem::path& results, const PlannedRun& run
 long steps_in_log(const std::filesystem::path& run_folder);
 
 /// Writes the plan's rows of index.csv anew; those of other plans stay. state: as state_of(), or
-/// failed (a key of `failed`); seconds: of wall clock, over all steps; error_mean: rms natural map,
-/// mean over steps, in g h; commit: of the program that began the run. Values that are not known
-/// yet are empty. Throws Error.
+/// failed (a key of `failed`); error_mean: rms natural map, mean over steps, in g h. Values that
+/// are not known yet are empty. Throws Error.
 void write_index(const std::filesystem::path& results, const Plan& plan,
                  const std::set<std::string>& failed);
 
@@ -66,14 +59,11 @@ struct PlanOptions {
   StatusLine::Style style = StatusLine::style_of_stderr();
 };
 
-/// Runs the unfinished tasks: packings first, the longest first; a run that was begun continues at
-/// its checkpoint. A run that fails is reported and the others go on. Prints events on stdout and
-/// the progress on stderr.
-///
-/// Returns ok: all are finished. failure: some failed, or after SIGINT or SIGTERM all were stopped
-/// with checkpoints. time_limit: all were stopped so after max_seconds. The same call goes on. When
-/// this process is killed (-9), its children die with it, and the same call goes on at the last
-/// checkpoints. Throws Error, also where another plan is run in the folder.
+/// Runs the unfinished tasks: packings first, the longest first. Prints events on stdout and the
+/// progress on stderr. Returns ok: all are finished. failure: some failed, or after SIGINT or
+/// SIGTERM all were stopped with checkpoints. time_limit: all were stopped so after max_seconds.
+/// The same call goes on, also when this process was killed (docs/manual/plans.md). Throws Error,
+/// also where another plan is run in the folder.
 ExitCode run_plan(const Plan& plan, const PlanOptions& options);
 
 /// The unfinished tasks as lines for a shell; of `options` only `results` and `only` count. Paths

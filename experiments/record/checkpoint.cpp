@@ -53,8 +53,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   unpacker.finish();
   unpacker.require(deposit.size() == 4);
   checkpoint.deposit = {deposit[0], deposit[1], deposit[2], deposit[3]};
-  // An intact file may still be inconsistent: every body needs a pose, a velocity and a spin, and
-  // every contact an impulse.
+  // An intact file may still be inconsistent.
   const MotionState& state = checkpoint.state;
   unpacker.require(state.velocity.size() == state.pose.size());
   unpacker.require(state.spin.size() == state.pose.size());

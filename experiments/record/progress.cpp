@@ -53,8 +53,7 @@ std::string Progress::line(double now) const {
   if (time > first_time_ && time < total_)
     text += "  " + duration_text(elapsed * (total_ - time) / (time - first_time_)) + " left";
   if (steps_ > 0) text += printed("  %.1f ms/step", 1e3 * elapsed / static_cast<double>(steps_));
-  text += printed("  error %.1e m/s", record_.error_rms);
-  text += printed("  %.0f contacts", record_.contacts);
+  text += printed("  error %.1e m/s  %.0f contacts", record_.error_rms, record_.contacts);
   if (!std::isnan(velocity_)) text += printed("  %.1e m/s rms", velocity_);
   return text;
 }

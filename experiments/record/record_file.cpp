@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "geometry/shape/convex_hull.hpp"
-#include "platform/error.hpp"
 #include "platform/text.hpp"
 
 namespace ballast {
@@ -145,6 +144,39 @@ void require_rows(const Hdf5Reader& file, const RowLayout& layout, size_t rows) 
   }
 }
 
+/// The hulls of the vertices. The stored triangles are for other readers.
+std::vector<std::shared_ptr<const Polyhedron>> shapes_of(const SystemTables& tables,
+                                                         const Hdf5Reader& file) {
+  const std::vector<std::int32_t>& begin = tables.vertex_begin;
+  if (begin.empty() || begin.front() != 0 || !std::ranges::is_sorted(begin) ||
+      3 * static_cast<size_t>(begin.back()) != tables.vertices.size())
+    file.fail("the datasets of /shapes do not fit together");
+  std::vector<std::shared_ptr<const Polyhedron>> shapes;
+  for (size_t k = 0; k + 1 < begin.size(); ++k) {
+    std::vector<Vec3> corners;
+    for (int v = begin[k]; v < begin[k + 1]; ++v)
+      corners.emplace_back(tables.vertices.data() + 3 * static_cast<size_t>(v));
+    try {
+      shapes.push_back(std::make_shared<const Polyhedron>(convex_hull(corners)));
+    } catch (const InvalidPolyhedron& error) {
+      file.fail("shape " + std::to_string(k) + ": " + error.what());
+    }
+  }
+  return shapes;
+}
+
+void give_parts(const SystemTables& tables, const Hdf5Reader& file, MechanicalSystem& system) {
+  for (size_t k = 0; k < tables.part_body.size(); ++k) {
+    const int body = tables.part_body[k], shape = tables.part_shape[k];
+    if (body < 0 || body >= system.grain_count || shape < 0 ||
+        shape >= static_cast<int>(system.shapes.size()))
+      file.fail("parts: number " + std::to_string(k) + " names no body or no shape");
+    const double* q = tables.part_rotation.data() + 4 * k;
+    const Pose pose{Vec3(tables.part_position.data() + 3 * k), Quat(q[0], q[1], q[2], q[3])};
+    system.bodies[body].shape.parts.push_back({system.shapes[shape].get(), pose});
+  }
+}
+
 }  // namespace
 
 size_t RowPart::size() const {
@@ -179,13 +211,10 @@ RowLayout poses_layout(size_t bodies) {
 
 RowLayout contacts_layout() {
   constexpr size_t step_and_time = 2;
+  using enum Hdf5Number;
   return {"contacts",
-          {{"body_a", {}, "1", "number of the body in /bodies", Hdf5Number::int32},
-           {"body_b",
-            {},
-            "1",
-            "number of the other body, to which the normal points",
-            Hdf5Number::int32},
+          {{"body_a", {}, "1", "number of the body in /bodies", int32},
+           {"body_b", {}, "1", "number of the other body, to which the normal points", int32},
            {"position", {3}, "m", "world frame, midway between the two surfaces"},
            {"normal", {3}, "1", "unit, world frame, from a to b"},
            {"gap", {}, "m", "along the normal at detection; negative: overlap"},
@@ -223,14 +252,12 @@ void add_rows(Hdf5Writer& file, const std::filesystem::path& log, const RowLayou
   const size_t length = layout.row_size(), most_rows = rows_together(layout);
   std::vector<double> gathered, values;
   for (size_t first = 0; first < count; first += gathered.size() / length) {
-    // Gathers as many rows as allowed.
     gathered.clear();
     for (size_t k = first; k < std::min(count, first + most_rows); ++k) {
       const std::span<const double> row = rows.next();
       gathered.insert(gathered.end(), row.begin(), row.end());
       if (see) see(row);
     }
-    // Writes each part of all gathered rows.
     size_t begin = layout.leading;
     for (size_t p = 0; p < layout.parts.size(); ++p) {
       const size_t size = layout.parts[p].size();
@@ -322,8 +349,7 @@ RecordForces::RecordForces(const std::filesystem::path& record) : file_(record) 
 
 std::vector<FrameContact> RecordForces::of_frame(size_t frame) const {
   if (frame >= frame_count()) file_.fail("has no contacts of frame " + std::to_string(frame));
-  const auto first = static_cast<size_t>(begin_[frame]),
-             count = static_cast<size_t>(begin_[frame + 1]) - first;
+  const size_t first = begin_[frame], count = begin_[frame + 1] - first;
   if (count == 0) return {};
   const auto read = [&](const char* name) {
     return file_.read_rows(std::string("contacts/") + name, first, count);
@@ -346,44 +372,6 @@ std::vector<FrameContact> RecordForces::of_frame(size_t frame) const {
                           vector(position, c), vector(normal, c), on_b});
   return contacts;
 }
-
-namespace {
-
-/// The hulls of the vertices. The stored triangles are for other readers.
-std::vector<std::shared_ptr<const Polyhedron>> shapes_of(const SystemTables& tables,
-                                                         const Hdf5Reader& file) {
-  const std::vector<std::int32_t>& begin = tables.vertex_begin;
-  // The begins of the shapes must ascend from zero to the end of the vertices.
-  if (begin.empty() || begin.front() != 0 || !std::ranges::is_sorted(begin) ||
-      3 * static_cast<size_t>(begin.back()) != tables.vertices.size())
-    file.fail("the datasets of /shapes do not fit together");
-  std::vector<std::shared_ptr<const Polyhedron>> shapes;
-  for (size_t k = 0; k + 1 < begin.size(); ++k) {
-    std::vector<Vec3> corners;
-    for (int v = begin[k]; v < begin[k + 1]; ++v)
-      corners.emplace_back(tables.vertices.data() + 3 * static_cast<size_t>(v));
-    try {
-      shapes.push_back(std::make_shared<const Polyhedron>(convex_hull(corners)));
-    } catch (const InvalidPolyhedron& error) {
-      file.fail("shape " + std::to_string(k) + ": " + error.what());
-    }
-  }
-  return shapes;
-}
-
-void give_parts(const SystemTables& tables, const Hdf5Reader& file, MechanicalSystem& system) {
-  for (size_t k = 0; k < tables.part_body.size(); ++k) {
-    const int body = tables.part_body[k], shape = tables.part_shape[k];
-    if (body < 0 || body >= system.grain_count || shape < 0 ||
-        shape >= static_cast<int>(system.shapes.size()))
-      file.fail("parts: number " + std::to_string(k) + " names no body or no shape");
-    const double* q = tables.part_rotation.data() + 4 * k;
-    const Pose pose{Vec3(tables.part_position.data() + 3 * k), Quat(q[0], q[1], q[2], q[3])};
-    system.bodies[body].shape.parts.push_back({system.shapes[shape].get(), pose});
-  }
-}
-
-}  // namespace
 
 MechanicalSystem read_record_system(const std::filesystem::path& path) {
   const Hdf5Reader file(path);

@@ -1,25 +1,9 @@
 #pragma once
-// record.h5: all that a run recorded, in one file that explains itself.
-//
-//   /                attributes format ("ballast record 2"), bits_generation (below),
-//                    scene (TOML), manifest (JSON)
-//   /steps/<column>  (steps): one dataset for each column of step_columns()
-//   /poses/time, step                 (frames)
-//   /poses/position, velocity, spin   (frames, bodies, 3): world frame; spin in the body frame
-//   /poses/rotation                   (frames, bodies, 4): body to world, w x y z
-//   /bodies/name, mass, volume        (bodies)
-//   /bodies/inertia                   (bodies, 3)
-//   /bodies/shape                     (bodies): number of the shape, -1 for a wall
-//   /bodies/wall_normal               (bodies, 3): into the free side; 0 for grains
-//   /shapes/vertices                  (all shapes' n, 3): in the body frame
-//   /shapes/triangles                 (m, 3): vertex numbers within the shape, counter-clockwise
-//                                     from outside
-//   /shapes/vertex_begin, triangle_begin   (shapes + 1): where shape k begins and ends
-//
-//   /contacts/...                     contact forces of the frames, where record.forces asks for
-//                                     them
-//
-// Every dataset of numbers has the attributes unit and description.
+// record.h5: all that a run recorded, in one file that explains itself (docs/manual/records.md).
+// The file has the attributes format ("ballast record 2"), bits_generation (below), scene (TOML)
+// and manifest (JSON), every dataset of numbers the attributes unit and description. /steps, /poses
+// and, where record.forces asks for it, /contacts are the layouts below; the tables of /bodies,
+// /shapes and /parts are in record_file.cpp.
 
 #include <filesystem>
 #include <functional>
@@ -54,14 +38,10 @@ struct RowLayout {
   size_t row_size() const;
 };
 
-/// One row per step: the columns of step_columns().
+/// One row per step; per stored frame; and per contact of a stored frame, which also has step and
+/// time in the log: several times as much as the poses.
 RowLayout steps_layout();
-/// One row per stored frame: step, time, then positions, rotations (w x y z), velocities and spins
-/// of all bodies.
 RowLayout poses_layout(size_t bodies);
-/// One row per contact of a stored frame: step, time, bodies a and b, position, normal, gap, force
-/// on b. Only where the scene asks for them (record.forces): they are several times as much as the
-/// poses.
 RowLayout contacts_layout();
 
 void pack_pose_row(const MotionState& state, std::vector<double>& row);

@@ -86,7 +86,6 @@ Recorder::Recorder(const fs::path& folder, const MechanicalSystem& system, long 
       begin_or_continue(poses_log(folder), poses_layout(system.bodies.size()), system, last_step));
   if (with_forces)
     forces_.emplace(begin_or_continue(forces_log(folder), contacts_layout(), system, last_step));
-  // A record made earlier does not describe this run any more.
   for (const fs::path& file : {record_file(folder), steps_table(folder)}) {
     std::error_code error;
     fs::remove(file, error);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
-#include <utility>
 
 #include "experiments/measure/wall_cycles.hpp"
 #include "platform/atomic_file.hpp"
@@ -48,10 +47,6 @@ bool CaptureSettings::takes(long step) const {
   return every == 0 || (step >= every && step % every < steps);
 }
 
-StepCapture::StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h,
-                         double g)
-    : settings_(settings), folder_(std::move(folder)), h_(h), g_(g) {}
-
 void StepCapture::see(const StepRecord& record) {
   fastest_wall_ = std::max(fastest_wall_, std::abs(record.wall_v));
 }
@@ -72,7 +67,6 @@ void StepCapture::observe(const TimeStepper& stepper, const MotionState& state,
   captured.wall_x = record.wall_x;
   captured.wall_v = record.wall_v;
   captured.load = record.load;
-  // Data of each contact that a solver may not need, but an analysis of its answer does.
   for (const int c : stepper.assembler().detected()) {
     const ContactPoint& contact = memory.contacts[static_cast<size_t>(c)];
     captured.gap.push_back(contact.gap);

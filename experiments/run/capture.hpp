@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include "experiments/step/time_step.hpp"
 #include "problems/files/captured_problem.hpp"
@@ -30,7 +31,8 @@ struct CaptureSettings {
 /// [m/s^2] are those of the run. Capture only reads: a run has the same bits with and without it.
 class StepCapture {
  public:
-  StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g);
+  StepCapture(const CaptureSettings& settings, std::filesystem::path folder, double h, double g)
+      : settings_(settings), folder_(std::move(folder)), h_(h), g_(g) {}
 
   /// To be called for every earlier step of a resumed run.
   void see(const StepRecord& record);

@@ -148,14 +148,10 @@ class Run {
   }
 
   PackingOptions packing_order() const {
-    PackingOptions order;
     // Relative to the folder's name: where it is a link, the kernel's ".." is another folder.
-    order.cache = options_.packing_cache.empty()
-                      ? (folder_.path() / ".." / "packings").lexically_normal()
-                      : options_.packing_cache;
-    order.style = options_.style;
-    order.keep_going = [this] { return why_to_stop() == ExitCode::ok; };
-    return order;
+    const std::filesystem::path beside = (folder_.path() / ".." / "packings").lexically_normal();
+    return {options_.packing_cache.empty() ? beside : options_.packing_cache,
+            [this] { return why_to_stop() == ExitCode::ok; }, options_.style};
   }
 
   /// Takes the state from scene, packing or checkpoint. False: stopped while depositing.

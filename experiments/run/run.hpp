@@ -53,9 +53,8 @@ struct RunEnd {
 /// time works in a folder: run() throws where another one runs there, and waits for a packing that
 /// another run deposits. Throws MissingSolver, Error: each with a one-line what().
 ///
-/// The folder then holds: scene.toml (resolved), manifest.json, steps.csv, record.h5,
-/// checkpoint.bin, capture/ and states/ (if asked for), log/ (raw rows from which the two records
-/// are made). write_report() (experiments/run_page) makes its page.
+/// docs/manual/records.md says what the folder then holds, without the page, which write_report()
+/// makes (experiments/run_page).
 RunEnd run(const RunOptions& options);
 
 /// The start of a run, as its loop needs it.

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
-#include <limits>
 #include <string_view>
 #include <thread>
 
@@ -46,8 +45,7 @@ Json build_json() { return Json::parse(build_text()); }
 /// The computer, and how busy it was when the run began.
 Json machine_json() {
   Json json = {{"cpu", cpu_model()}, {"cores", std::thread::hardware_concurrency()}};
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  const double memory = 1.0 * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGE_SIZE);
   json["memory_GB"] = std::round(memory / 1e8) / 10.0;
   double load[3] = {0.0, 0.0, 0.0};
   const bool is_known = getloadavg(load, 3) == 3;
@@ -58,6 +56,58 @@ Json machine_json() {
   for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"})
     if (const char* value = std::getenv(name)) json["environment"][name] = value;
   return json;
+}
+
+/// The files of a run: folders of its own, and the files in them as patterns; +(): one or more.
+constexpr std::pair<const char*, const char*> run_files[] = {{"log", "steps.bin"},
+                                                             {"log", "poses.bin"},
+                                                             {"log", "forces.bin"},
+                                                             {"capture", "step_+([0-9]).hdf5"},
+                                                             {"states", "step_+([0-9]).bin"},
+                                                             {"", "checkpoint.bin"},
+                                                             {"", "steps.csv"},
+                                                             {"", "record.h5"},
+                                                             {"", "report.html"},
+                                                             {"", "scene.toml"},
+                                                             {"", "manifest.json"}};
+
+/// Files that may be in a folder before its run has begun: a run killed early leaves them.
+constexpr std::string_view beginnings[] = {"run.lock", "manifest.json", "manifest.json.tmp",
+                                           "scene.toml.tmp"};
+
+bool is_manifest(const fs::path& file) {
+  try {
+    Manifest::read(file);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Removes the files that a run has written, by their names, and folders that are then empty.
+void clear(const fs::path& run) {
+  std::error_code none;
+  // The page's figures: our scripts, known by their first line, and the pictures made from them.
+  std::vector<fs::path> scripts;
+  for (const fs::directory_entry& entry : fs::directory_iterator(run / "figures", none))
+    if (entry.path().extension() == ".gnuplot" && entry.is_regular_file(none))
+      scripts.push_back(entry.path());
+  for (fs::path& script : scripts) {
+    const std::string name = script.stem().string();
+    if (!read_whole_file(script).starts_with("# " + name + ": gnuplot ")) continue;
+    fs::remove(script);
+    fs::remove(script.replace_extension(".svg"));
+  }
+  if (!scripts.empty()) fs::remove(run / "figures", none);  // only where it is empty
+  for (const auto& [own, pattern] : run_files) {
+    const fs::path folder = run / own;
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+      if (fnmatch(pattern, entry.path().filename().c_str(), FNM_EXTMATCH) == 0)
+        found.push_back(entry.path());
+    for (const fs::path& path : found) fs::remove(path);
+    if (*own && !found.empty()) fs::remove(folder, none);
+  }
 }
 
 }  // namespace
@@ -150,11 +200,9 @@ std::string Manifest::machine() const {
 std::string Manifest::started() const { return json_->at("started").get<std::string>(); }
 
 double Manifest::summary_number(const std::string& name) const {
-  const Json& summary = json_->at("summary");
-  const auto found = summary.find(name);
-  if (found == summary.end() || !found->is_number())
-    return std::numeric_limits<double>::quiet_NaN();
-  return found->get<double>();
+  const std::map<std::string, double> numbers = summary_numbers();
+  const auto found = numbers.find(name);
+  return found == numbers.end() ? std::nan("") : found->second;
 }
 
 std::map<std::string, double> Manifest::summary_numbers() const {
@@ -171,62 +219,6 @@ std::string Manifest::text() const {
 
 void Manifest::write(const fs::path& file) const { write_whole_file(file, text()); }
 
-namespace {
-
-/// The files of a run: folders of its own, and the files in them as patterns; +(): one or more.
-constexpr std::pair<const char*, const char*> run_files[] = {{"log", "steps.bin"},
-                                                             {"log", "poses.bin"},
-                                                             {"log", "forces.bin"},
-                                                             {"capture", "step_+([0-9]).hdf5"},
-                                                             {"states", "step_+([0-9]).bin"},
-                                                             {"", "checkpoint.bin"},
-                                                             {"", "steps.csv"},
-                                                             {"", "record.h5"},
-                                                             {"", "report.html"},
-                                                             {"", "scene.toml"},
-                                                             {"", "manifest.json"}};
-
-/// Files that may be in a folder before its run has begun: a run killed early leaves them.
-constexpr std::string_view beginnings[] = {"run.lock", "manifest.json", "manifest.json.tmp",
-                                           "scene.toml.tmp"};
-
-bool is_manifest(const fs::path& file) {
-  try {
-    Manifest::read(file);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-/// Removes the files that a run has written, by their names, and folders that are then empty.
-void clear(const fs::path& run) {
-  std::error_code none;
-  // The page's figures: our scripts, known by their first line, and the pictures made from them.
-  std::vector<fs::path> scripts;
-  for (const fs::directory_entry& entry : fs::directory_iterator(run / "figures", none))
-    if (entry.path().extension() == ".gnuplot" && entry.is_regular_file(none))
-      scripts.push_back(entry.path());
-  for (fs::path& script : scripts) {
-    const std::string name = script.stem().string();
-    if (!read_whole_file(script).starts_with("# " + name + ": gnuplot ")) continue;
-    fs::remove(script);
-    fs::remove(script.replace_extension(".svg"));
-  }
-  if (!scripts.empty()) fs::remove(run / "figures", none);  // only where it is empty
-  for (const auto& [own, pattern] : run_files) {
-    const fs::path folder = run / own;
-    std::vector<fs::path> found;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-      if (fnmatch(pattern, entry.path().filename().c_str(), FNM_EXTMATCH) == 0)
-        found.push_back(entry.path());
-    for (const fs::path& path : found) fs::remove(path);
-    if (*own && !found.empty()) fs::remove(folder, none);
-  }
-}
-
-}  // namespace
-
 bool RunFolder::is_finished(const std::string& key) const {
   for (const fs::path& file : {manifest(), path_ / "steps.csv", path_ / "record.h5"})
     if (!path_exists(file)) return false;
@@ -237,11 +229,9 @@ bool RunFolder::is_finished(const std::string& key) const {
 void RunFolder::begin(const std::string& scene_text, const Manifest& manifest,
                       bool overwrite) const {
   create_folder(path_);
-  // A folder counts as new when it holds at most the files of a run that was killed as it began.
-  const bool has_others =
-      std::any_of(fs::directory_iterator(path_), fs::directory_iterator(), [](const auto& entry) {
-        return std::ranges::find(beginnings, entry.path().filename()) == std::end(beginnings);
-      });
+  const bool has_others = std::ranges::any_of(fs::directory_iterator(path_), [](const auto& entry) {
+    return std::ranges::find(beginnings, entry.path().filename()) == std::end(beginnings);
+  });
   const bool is_new =
       !has_others && (!path_exists(this->manifest()) || is_manifest(this->manifest()));
   if (!is_new && !(has_run() && is_manifest(this->manifest())))

@@ -105,7 +105,7 @@ page::Picture jammed_figure(const RunData& data, const RunSummary& summary) {
   }
   Panel above =
       jammed_panel(data, summary.wall, miss, "|*f*~g~\u00a0−\u00a0*f*\u2009| / *f*~max~", 1e-4);
-  above.lines = {{target::jammed_force, page::marked("10^−3^"), false, Ink::grey}};
+  above.lines = {{target::jammed_force, page::marked("10^−3^")}};
   const Panel below = jammed_panel(data, summary.wall, speed, "|*v*|  (mm/s)", 1e300);
   page::Text caption = page::words("run.jammed.paper");
   const JammedState& jammed = summary.jammed;
@@ -124,8 +124,7 @@ page::Picture error_figure(const RunData& data, const RunSummary& summary) {
       column_line(data, &StepRecord::error_max, 1.0 / scale, "worst contact", Ink::light, 0.8),
       column_line(data, &StepRecord::error_rms, 1.0 / scale, "rms over contacts", Ink::blue, 1.4)};
   const double tolerance = summary.facts.tolerance;
-  if (std::isfinite(tolerance))
-    panel.lines = {{tolerance, printed("%g: tolerance", tolerance), false, Ink::grey}};
+  if (std::isfinite(tolerance)) panel.lines = {{tolerance, printed("%g: tolerance", tolerance)}};
   const bool has_gravity = std::string_view(error_unit(summary)) == "g h";
   page::Text caption = page::words(
       "run.error", {{"unit", page::words(has_gravity ? "run.error.gravity" : "run.error.none",
@@ -143,9 +142,8 @@ page::Picture penetration_figure(const RunData& data, const RunSummary& summary)
       column_line(data, &StepRecord::penetration_mean, 1e6, "mean over active contact points",
                   Ink::blue, 1.4)};
   if (summary.facts.has_packing)
-    panel.lines = {
-        {1e6 * target::penetration_max, "250 µm: bound on the deepest", false, Ink::grey},
-        {1e6 * target::penetration_mean, "5 µm: bound on the mean", false, Ink::grey}};
+    panel.lines = {{1e6 * target::penetration_max, "250 µm: bound on the deepest"},
+                   {1e6 * target::penetration_mean, "5 µm: bound on the mean"}};
   // the axis ends at the decade below nearly all means
   std::vector<double> means = panel.curves[1].y;
   std::erase_if(means, [](double value) { return !(value > 0.0); });
@@ -304,7 +302,7 @@ void draw_solid_fraction(const RunData& data, double initial, const page::Text& 
   for (double& value : change) value -= initial;
   std::vector<Curve> curves = std::move(panel.curves);
   panel = time_panel(data, "Δ*ρ*");
-  panel.lines = {{paper_window.begin, "0.2 s", true, Ink::grey}};
+  panel.lines = {{paper_window.begin, "0.2 s", true}};
   curves.push_back(
       line_of(record_column(data.steps, &StepRecord::time), change, title, ink, width));
   panel.curves = std::move(curves);

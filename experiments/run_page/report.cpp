@@ -167,6 +167,11 @@ std::string text_at(const RunData& data, const char* where) {
   return readable(data.manifest()[at]);
 }
 
+/// "", or what is to be said behind the commit of a program whose sources were modified.
+const char* modified_words(const RunData& data) {
+  return text_at(data, "/ballast/modified") == "true" ? ", modified" : "";
+}
+
 /// The scene's title, else its name, else the folder's name.
 std::string name_of_run(const RunData& data) {
   if (data.scene && !data.scene->title.empty()) return data.scene->title;
@@ -240,11 +245,6 @@ page::Table provenance_table(const RunData& data) {
   return table;
 }
 
-/// "", or what is to be said behind the commit of a program whose sources were modified.
-const char* modified_words(const RunData& data) {
-  return text_at(data, "/ballast/modified") == "true" ? ", modified" : "";
-}
-
 std::string made_by(const RunData& data) {
   std::string text;
   const auto add = [&](const std::string& before, const std::string& part) {
@@ -292,24 +292,8 @@ void write_report(const std::filesystem::path& folder) {
   const RunSummary summary = summarise(data.steps, data.facts);
   const bool has_packing = summary.facts.has_packing;
   if (has_packing && summary.wall.periods.empty())
-    data.notices.push_back(page::plain_words(page::words("run.no_period")));
-  page::Section motion{"motion", "What happens"},
-      figures{"paper", has_packing ? "What the paper shows" : "Motion of the wall"},
-      diagnostics{"diagnostics", "Can it be trusted?"}, parameters{"parameters", "Parameters"};
-  motion.add(replay_of_run(data));
-  figures.add(paper_figures(data, summary));
-  diagnostics.add(diagnostic_figures(data, summary));
-  // The most important notices come first.
-  const std::vector<std::string> words = run_findings(summary);
-  if (!has_no_findings(summary))
-    data.notices.insert(data.notices.begin(), words.begin(), words.end());
-  if (const long all = data.scene ? data.scene->step_count() : 0; summary.steps < all)
-    data.notices.insert(
-        data.notices.begin(),
-        plain_words(page::words(
-            "run.unfinished", {{"done", page::exact(summary.steps)}, {"all", page::exact(all)}})));
-  page::Page page;
-  page.title = name_of_run(data);
+    data.notices.push_back(plain_words(page::words("run.no_period")));
+  page::Page page{.title = name_of_run(data)};
   page::Text extent = page::exact(summary.steps) + " steps, " +
                       page::exact_quantity(summary.duration, "s") + " simulated";
   if (summary.contacts.samples)
@@ -317,15 +301,16 @@ void write_report(const std::filesystem::path& folder) {
   if (std::isfinite(summary.ms_per_step))
     extent += ", " + page::quantity(summary.ms_per_step, "ms") + " per step";
   page.lede = {extent + ".", made_by(data)};
-  page.notices.heading = "To be known before reading";
-  page.notices.items.assign(data.notices.begin(), data.notices.end());
   page.answers = {.is_enabled = true, .has_charts = true};
-  page.add(std::move(motion));
+  page.add({"motion", "What happens", {replay_of_run(data)}});
   page.add({"results", "The run in numbers", {results_table(summary)}});
-  page.add(std::move(figures));
+  page.add({"paper", has_packing ? "What the paper shows" : "Motion of the wall"});
+  page.sections.back().add(paper_figures(data, summary));
   page.add({"periods", "Period by period", {periods_table(summary)}});
-  page.add(std::move(diagnostics));
+  page.add({"diagnostics", "Can it be trusted?"});
+  page.sections.back().add(diagnostic_figures(data, summary));
   page.add({"cost-table", "Cost", {cost_table(summary)}});
+  page::Section parameters{"parameters", "Parameters"};
   std::string list;
   const Json overrides = data.manifest().value("overrides", Json::array());
   for (const Json& set : overrides) list += (list.empty() ? "" : "\n") + readable(set);
@@ -337,6 +322,14 @@ void write_report(const std::filesystem::path& folder) {
             "Program and machine",
             {provenance_table(data),
              page::Listing{data.manifest_text, "The whole manifest (manifest.json)"}}});
+  page.notices.heading = "To be known before reading";
+  std::vector<page::Text>& notices = page.notices.items;  // the most important come first
+  if (const long all = data.scene ? data.scene->step_count() : 0; summary.steps < all)
+    notices.push_back(plain_words(page::words(
+        "run.unfinished", {{"done", page::exact(summary.steps)}, {"all", page::exact(all)}})));
+  if (!has_no_findings(summary))
+    std::ranges::copy(run_findings(summary), std::back_inserter(notices));
+  std::ranges::copy(data.notices, std::back_inserter(notices));
   page::draw_pictures(page, folder,
                       {.command = shell_line({executable_path().string(), "report",
                                               std::filesystem::absolute(folder).string()})});

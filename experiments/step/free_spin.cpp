@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "platform/for_each_cpu.hpp"
 
@@ -84,8 +83,7 @@ Vec3 free_spin(const Vec3& inertia, const Vec3& spin, double h) {
   if (change <= 1e-10 * spin.norm()) return next;
   // The iteration diverges from h |w| ~ 2 on. Two half steps conserve energy and momentum as well.
   constexpr double most_radians = 1e3;
-  if (!(h * spin.norm() < most_radians))
-    return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (!(h * spin.norm() < most_radians)) return Vec3::Constant(std::nan(""));
   return free_spin(inertia, free_spin(inertia, spin, 0.5 * h), 0.5 * h);
 }
 

@@ -1,18 +1,13 @@
 #pragma once
-// Newton's law of restitution with a limit on the energy that the rebound gives back.
-//
-// Newton's law constrains only normal velocities: u_N+ >= -e u_N-. With friction, or where a
-// contact that opens is pushed shut by others, it can add energy (Kane and Levinson 1985; Glocker
-// 2013), so it is limited. With u_free the relative velocity without contact impulses and u the one
-// at the step's end, the contacts of an island take from the free motion the energy
+// Newton's law of restitution, u_N+ >= -e u_N-, with a limit on the energy that the rebound gives
+// back: alone it can add energy (Kane and Levinson 1985; Glocker 2013; docs/theory/method.md). With
+// u_free the relative velocity without contact impulses and u the one at the step's end, the
+// contacts of an island take from the free motion the energy
 //
 //   L(r) = -1/2 sum_c r_c . (u_c + u_free,c)      [J], without the walls' own work
 //
-// The inelastic impact, e = 0, always takes L_0 >= 0. The limit is L >= (1 - e^2) L_0: the rebound
-// gives back at most e^2 of the energy that the inelastic impact takes. Moreau's law with one e for
-// all velocities satisfies it; so does Newton's law without friction, with equality where no force
-// acts within the step, else to O(h). Where Newton's law violates it, the island's e is lowered
-// until it holds; with e = 0 it always holds.
+// The limit is L >= (1 - e^2) L_0, where L_0 >= 0 is that of the inelastic impact, e = 0. Where
+// Newton's law violates it, the island's e is lowered until it holds; with e = 0 it always holds.
 
 #include <span>
 #include <vector>

@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace ballast {
-namespace {
-
-double normal_velocity(const FrictionProblem& problem, int c, const Eigen::VectorXd& v) {
-  double u = 0.0;
-  for_normal_row(problem, c, [&](int dof, double h) { u += h * v[dof]; });
-  return u;
-}
-
-}  // namespace
 
 OverlapCorrection::OverlapCorrection(const MechanicalSystem& system, const CorrectionSpec& spec)
     : system_(system), spec_(spec) {
@@ -47,7 +38,9 @@ void OverlapCorrection::find_targets(WorkerTeam* team, const ProblemAssembler& a
     for (int c = begin; c < end; ++c) {
       const ContactPoint& contact = contacts[assembler.detected()[c]];
       const double walls = imposed.size() > 0 ? imposed[problem.row_begin[c]] : 0.0;
-      const double next_gap = contact.gap + h * (normal_velocity(problem, c, v) + walls);
+      double velocity = 0.0;  // of the bodies
+      for_normal_row(problem, c, [&](int dof, double row) { velocity += row * v[dof]; });
+      const double next_gap = contact.gap + h * (velocity + walls);
       // A fraction of the overlap is removed. A point that is open or within the slop may close to
       // the slop, no further.
       const double wanted =

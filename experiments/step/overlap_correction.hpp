@@ -1,17 +1,12 @@
 #pragma once
 // Overlap correction by displacements: overlapping grains are moved apart after the step;
-// velocities are untouched.
-//
-// Velocity-level contact keeps u_N >= 0 but never removes an overlap once it is there (curvature of
-// the motion, changes of normal, the solver's residual). The correction solves, after the step and
-// only roughly, the frictionless problem
+// velocities and walls are untouched (docs/theory/method.md). A few Gauss-Seidel sweeps from d = 0
+// solve roughly
 //
 //   min 1/2 d^T M d   subject to, at each contact c,
 //   g_c + H_N,c d  >=  -slop - (1 - fraction) * max(0, -g_c - slop),   g_c = gap_c + h u_N,c,
 //
-// for small displacements d of the grains (unknowns of driven walls are locked), by a few
-// Gauss-Seidel sweeps from d = 0, and moves the poses by d. It adds no kinetic energy and doesn't
-// move a wall. The change of the potential energy is recorded.
+// for small displacements d of the grains. The change of the potential energy is recorded.
 
 #include <span>
 #include <vector>

@@ -1,8 +1,7 @@
 #pragma once
 // The results of a step: one row of named scalars, and the memory from which the next step begins.
 // The table of columns is the only source of names, units and descriptions for CSV, HDF5 and the
-// pages; it also says which columns are the wall clock of a phase of the step. A new column needs a
-// member here, a row in the table, and the code that measures it.
+// pages; it also says which columns are the wall clock of a phase of the step.
 
 #include <filesystem>
 #include <span>

@@ -85,14 +85,13 @@ void TimeStepper::free_motion(int b, const MotionState& state, double mid_time) 
   const int first = assembler_.first_dof(b);
   if (first < 0) return;
   const RigidBody& body = system_.bodies[b];
-  const double h = h_;
   Vec3 force = body.force.at(mid_time);
   if (body.is_wall()) force = body.wall.load.at(mid_time) * body.wall.normal;
   // M (v_free - v) = h f(t_mid) + h M g along the free axes; of a wall the load alone, h f.
   for (int d = first; d < first + body.freedom.translations; ++d) {
     const Vec3 axis = body.freedom.axes.col(d - first);
-    force_[d] = h * axis.dot(force);
-    const double gravity = body.is_wall() ? 0.0 : h * axis.dot(system_.gravity);
+    force_[d] = h_ * axis.dot(force);
+    const double gravity = body.is_wall() ? 0.0 : h_ * axis.dot(system_.gravity);
     v_free()[d] = v_before_[d] + (gravity + force_[d] / body.mass);
     gyroscopic_[d] = 0.0;
   }
@@ -118,15 +117,6 @@ void TimeStepper::detect(const MotionState& mid, std::vector<ContactPoint>& cont
   detector_.detect(mid.pose, reach_, contacts, ahead_);
 }
 
-/// A contact that was there in the last step begins with the impulse that it had then.
-void TimeStepper::carry(const StepMemory& memory) {
-  // After a step that ended by an exception contacts have no impulses.
-  if (spec_.warm_start && old_impulses_.size() == old_contacts_.size())
-    carry_impulses(old_contacts_, old_impulses_, memory.contacts, carried_, team_.get());
-  else
-    carried_.assign(memory.contacts.size(), Vec3::Zero());
-}
-
 /// All that waits only for the contacts: carried impulses, the layout of the problem, and the
 /// velocities that the bodies would have without contacts.
 void TimeStepper::begin_problem(const MotionState& state, const StepMemory& memory,
@@ -144,7 +134,12 @@ void TimeStepper::begin_problem(const MotionState& state, const StepMemory& memo
   };
   run_ranges(team_.get(), static_cast<int>(system_.bodies.size()), /*together=*/64, move,
              [&] { assembler_.lay_out(memory.contacts); });
-  carry(memory);
+  // A contact that was there in the last step begins with the impulse that it had then. After a
+  // step that ended by an exception contacts have no impulses.
+  if (spec_.warm_start && old_impulses_.size() == old_contacts_.size())
+    carry_impulses(old_contacts_, old_impulses_, memory.contacts, carried_, team_.get());
+  else
+    carried_.assign(memory.contacts.size(), Vec3::Zero());
   // of the spins, only here: nothing may throw within the team
   if (v_free().allFinite()) return;
   for (size_t b = 0; b < system_.bodies.size(); ++b) {
@@ -218,14 +213,11 @@ void TimeStepper::account_energy(StepRecord& record) {
   record.energy_residual = record.kinetic_energy - kinetic_before -
                            (record.work_load + record.work_gravity + record.work_prescribed) +
                            record.dissipated;
-}
-
-/// -L of impact_law.hpp where that is positive. Without error L = r . W r / 2 - r . u >= 0.
-double TimeStepper::gained_energy() {
+  // -L of impact_law.hpp, where without error L = r . W r / 2 - r . u >= 0.
   // -L = r . (u + u_f) / 2 = H^T r . (v' + v_free) / 2 + r . (velocity of the walls).
-  const double given = 0.5 * runner_.body_impulse().dot(runner_.body_velocity() + v_free()) +
-                       assembler_.imposed_power(impulses_);
-  return std::max(0.0, given);
+  const double given =
+      0.5 * runner_.body_impulse().dot(v1 + v_free()) + assembler_.imposed_power(impulses_);
+  record.energy_gained = std::max(0.0, given);
 }
 
 void TimeStepper::account_contacts(const StepMemory& memory, StepRecord& record) {
@@ -263,9 +255,7 @@ void TimeStepper::finish_motion(double end_time, MotionState& state) {
 StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   StepRecord record;
   Stopwatch clock;  // restart() ends a phase and begins the next
-  const double h = h_;
-  const double begin_time = state.time, mid_time = begin_time + 0.5 * h,
-               end_time = (state.step + 1) * h;
+  const double mid_time = state.time + 0.5 * h_, end_time = (state.step + 1) * h_;
   record.time = end_time;
   // A step of Moreau and Jean, of which this is the first half:
   //
@@ -275,7 +265,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
     if (const auto& imposed = system_.bodies[b].imposed)
       state.pose[b] = imposed->motion.pose_at(mid_time, imposed->start);
     else
-      state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h);
+      state.pose[b] = moved(state.pose[b], state.velocity[b], state.spin[b], 0.5 * h_);
   });
   record.seconds_other = clock.restart();
   memory.contacts.swap(old_contacts_);
@@ -287,7 +277,7 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
   begin_problem(state, memory, mid_time);
   record.seconds_other += clock.restart();
   solve_pace_.begin(team_.get());  // assembled by those who solve, whose cores then have it
-  assembler_.fill({state, memory.contacts, v_free(), h, end_time});
+  assembler_.fill({state, memory.contacts, v_free(), h_, end_time});
   record.seconds_assemble = clock.restart();
   solve(memory, record);
   record.seconds_judge = clock.restart() - record.seconds_solve;
@@ -298,13 +288,12 @@ StepRecord TimeStepper::step(MotionState& state, StepMemory& memory) {
 
   finish_motion(end_time, state);
   Stopwatch finding;
-  correction_.find_targets(team_.get(), assembler_, memory.contacts, runner_.body_velocity(), h);
+  correction_.find_targets(team_.get(), assembler_, memory.contacts, runner_.body_velocity(), h_);
   record.seconds_correct = finding.seconds();
   // The books are of the velocities, the correction is of the poses.
   run_parts(team_.get(), 2, [&](int part) {
     if (part) {
       account_energy(record);
-      record.energy_gained = gained_energy();
       account_contacts(memory, record);
       return;
     }

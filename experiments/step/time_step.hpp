@@ -1,16 +1,11 @@
 #pragma once
-// One Moreau-Jean step (theta = 1/2): half a step of motion, detection, one friction problem, half
-// a step of motion.
+// One Moreau-Jean step (theta = 1/2; docs/theory/method.md): half a step of motion, detection, one
+// friction problem, half a step of motion.
 //
 //   q_m = q_k + h/2 v_k                     contacts are detected at the mid-point q_m
 //   M (v_{k+1} - v_k) = h f(t_m) + H^T r    with Signorini-Coulomb's law between r and u_{k+1}
 //   q_{k+1} = q_m + h/2 v_{k+1}
-//
-// Successive mid-points are h v_{k+1} apart, so bias_N = gap/h closes an open gap exactly, to
-// first order in the rotation. With the mean velocity (v_k + v_{k+1})/2 work and energy balance
-// exactly; the residual is recorded.
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,10 +60,8 @@ class TimeStepper {
   void free_motion(int b, const MotionState& state, double mid_time);
   void begin_problem(const MotionState& state, const StepMemory& memory, double mid_time);
   void detect(const MotionState& mid, std::vector<ContactPoint>& contacts);
-  void carry(const StepMemory& memory);
   void solve(StepMemory& memory, StepRecord& record);
   void account_energy(StepRecord& record);
-  double gained_energy();
   void account_contacts(const StepMemory& memory, StepRecord& record);
   void finish_motion(double end_time, MotionState& state);
 

@@ -171,26 +171,24 @@ struct Rod {
   Vec3 from, to;
   double from_radius, to_radius;
   Colour colour;
+  double force = 0.0;  ///< normal force of the pair that it joins [N]
 };
 
-/// Returns one rod between the centres of each two touching bodies, with its normal force. At a
-/// wall it ends at a contact. A frame before the first step has the rods of the next frame.
-std::vector<std::pair<Rod, double>> chains_in(const ViewData& view, size_t frame) {
+/// Returns one rod between the centres of each two touching bodies, by their numbers. At a wall it
+/// ends at a contact. A frame before the first step has the rods of the next frame.
+std::map<std::pair<int, int>, Rod> chains_in(const ViewData& view, size_t frame) {
   std::vector<FrameContact> contacts = view.contacts(frame);
   if (contacts.empty() && frame == 0 && view.frames.size() > 1) contacts = view.contacts(frame = 1);
-  std::map<std::pair<int, int>, std::pair<Rod, double>> pairs;
+  std::map<std::pair<int, int>, Rod> chains;
   const auto centre = [&](int body) { return view.frames[frame].pose[body].position; };
   for (const FrameContact& contact : contacts) {
     const auto [a, b] = std::minmax(contact.body_a, contact.body_b);  // walls come after grains
     const bool meets_wall = b >= view.system.grain_count;
     const Vec3 end = meets_wall ? Vec3(contact.position.cast<double>()) : centre(b);
     const Vec3 to = centre(a) + view.system.period.nearest(end - centre(a));
-    auto& [rod, force] =
-        pairs.try_emplace({a, b}, Rod{centre(a), to, 0, 0, grey}, 0.0).first->second;
-    force += static_cast<double>(contact.force.dot(contact.normal));
+    Rod& rod = chains.try_emplace({a, b}, Rod{centre(a), to, 0, 0, grey}).first->second;
+    rod.force += static_cast<double>(contact.force.dot(contact.normal));
   }
-  std::vector<std::pair<Rod, double>> chains;
-  for (const auto& [bodies, chain] : pairs) chains.push_back(chain);
   return chains;
 }
 
@@ -222,7 +220,7 @@ class Camera {
     std::vector<double> forces;
     const size_t count = view.frames.size();
     for (size_t f = 0; f < count; f += std::max<size_t>(1, count / 10))
-      for (const auto& [rod, force] : chains_in(view, f)) forces.push_back(force);
+      for (const auto& [bodies, rod] : chains_in(view, f)) forces.push_back(rod.force);
     std::sort(forces.begin(), forces.end());
     const double top = forces.empty() ? 0.0 : forces[(forces.size() - 1) * 199 / 200];
     if (top > 0.0) top_force_ = top;
@@ -360,13 +358,13 @@ class Camera {
   /// Draws the chains above the mean force; their width grows with the force.
   void draw_chains(size_t frame) {
     double mean = 0.0, reach = 0.0;
-    const auto chains = chains_in(view_, frame);
-    for (const auto& [rod, force] : chains) mean += force / static_cast<double>(chains.size());
+    auto chains = chains_in(view_, frame);
+    for (const auto& [bodies, rod] : chains) mean += rod.force / static_cast<double>(chains.size());
     for (int g = 0; g < view_.system.grain_count; ++g)
       reach += view_.system.bodies[g].shape.polyhedron->circumradius() / view_.system.grain_count;
-    for (auto [rod, force] : chains) {
-      if (force < mean) continue;
-      const double share = force / top_force_;
+    for (auto& [bodies, rod] : chains) {
+      if (rod.force < mean) continue;
+      const double share = rod.force / top_force_;
       rod.from_radius = rod.to_radius = 0.24 * reach * std::min(share, 1.3);
       rod.colour = ramp_colour(0.25 + 0.65 * std::sqrt(std::min(share, 1.0)));
       draw(rod);

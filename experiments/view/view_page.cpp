@@ -47,9 +47,7 @@ std::string history_of(const std::vector<Word>& values, size_t columns, int orde
                  change = static_cast<Word>(difference - (order == 2 ? slope : 0));
       value = next;
       slope = difference;
-      const bool is_negative = change >> (8 * sizeof(Word) - 1);
-      codes.push_back(static_cast<Word>(static_cast<Word>(change << 1) ^
-                                        static_cast<Word>(is_negative ? ~Word{} : Word{})));
+      codes.push_back(static_cast<Word>(change << 1 ^ -(change >> (8 * sizeof(Word) - 1))));
     }
   }
   return text_of(codes);
@@ -105,38 +103,34 @@ struct DrawnShape {
 void pack_shapes(const ViewData& view, Json& head, page::Replay& replay) {
   std::map<const Polyhedron*, size_t> place;
   std::vector<DrawnShape> shapes;
+  std::vector<size_t> shape_of;
+  Floats grains;
   for (int b = 0; b < view.system.grain_count; ++b) {
-    const ContactShape& shape = view.system.bodies[b].shape;
-    if (place.emplace(shape.polyhedron, place.size()).second) shapes.emplace_back(shape);
+    const RigidBody& body = view.system.bodies[b];
+    const auto [at, is_new] = place.emplace(body.shape.polyhedron, shapes.size());
+    if (is_new) shapes.emplace_back(body.shape);
+    shape_of.push_back(at->second);
+    grains.insert(grains.end(), {static_cast<float>(body.mass), static_cast<float>(body.volume)});
   }
   double scale = 0.0;
   for (const DrawnShape& shape : shapes)
     for (const Vec3& corner : shape.corners)
       scale = std::max(scale, corner.lpNorm<Eigen::Infinity>());
   Words words;
-  const auto add = [&](size_t number) { words.push_back(static_cast<std::uint16_t>(number)); };
+  const auto add = [&](auto number) { words.push_back(static_cast<std::uint16_t>(number)); };
   for (const DrawnShape& shape : shapes) {
     add(shape.corners.size());
     add(shape.faces.size());
     for (const std::vector<int>& face : shape.faces) {
       add(face.size());
-      for (const int v : face) add(static_cast<size_t>(v));
+      for (const int v : face) add(v);
     }
     for (const Vec3& corner : shape.corners)
-      for (const double entry : corner) {
-        const long number = std::lround(entry / scale * 32767.0);
-        words.push_back(static_cast<std::uint16_t>(number));
-      }
+      for (const double entry : corner) add(std::lround(entry / scale * 32767.0));
   }
   head["scale"] = scale;
-  head["shapes"] = place.size();
-  head["shape_of"] = Json::array();
-  Floats grains;
-  for (int b = 0; b < view.system.grain_count; ++b) {
-    const RigidBody& body = view.system.bodies[b];
-    head["shape_of"].push_back(place.at(body.shape.polyhedron));
-    grains.insert(grains.end(), {static_cast<float>(body.mass), static_cast<float>(body.volume)});
-  }
+  head["shapes"] = shapes.size();
+  head["shape_of"] = shape_of;
   replay.parts.emplace_back("shapes", text_of(words));
   replay.parts.emplace_back("grains", text_of(grains));
 }
@@ -355,11 +349,8 @@ page::Replay replay_of(const ViewData& view) {
 }
 
 void write_view_page(const ViewData& view, const std::filesystem::path& file) {
-  page::Page page;
-  page.title = view.title;
-  page::Section motion{"motion", view.errors.empty() ? "In 3D" : "The error in space"};
-  motion.add(replay_of(view));
-  page.add(std::move(motion));
+  page::Page page{.title = view.title};
+  page.add({"motion", view.errors.empty() ? "In 3D" : "The error in space", {replay_of(view)}});
   write_html_file(file, page);
 }
 

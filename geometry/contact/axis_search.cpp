@@ -42,8 +42,6 @@ AxisSearch::AxisSearch(std::span<const CollisionShape> shapes) {
 
 AxisOutcome AxisSearch::find(const ShapePair& pair, double alert, AxisFeature& hint,
                              SeparatingAxis& axis) {
-  // The best axis of the last step is nearly always the best again. One evaluation and a proof then
-  // replace the search.
   const std::optional<SeparatingAxis> last = evaluate_axis(pair, hint, heights_);
   if (!last) return search(pair, alert, nullptr, hint, axis);
   axis.separation = last->separation;
@@ -101,7 +99,6 @@ void AxisSearch::add_witness(const ShapePair& pair, int own, const Vec3& point) 
       std::min(side.witnesses, most_witnesses - 1);  // when full, the last place is used again
   double* __restrict heights = side.heights.data() + static_cast<size_t>(slot) * faces.padded();
   double* __restrict bound = side.bound.data();
-  // The height of a point of the other body over a face bounds the face's separation from above.
   faces.evaluate(point, heights);
   for (int f = 0; f < faces.padded(); ++f) bound[f] = heights[f] < bound[f] ? heights[f] : bound[f];
   side.witnesses = slot + 1;
@@ -225,9 +222,8 @@ AxisFeature AxisSearch::choose(const ShapePair& pair) const {
   const double enough = best_ - tie_tolerance(pair);
   for (int own : {0, 1}) {
     const int count = pair.shape[own]->faces().count();
-    for (int f = 0; f < count; ++f) {
+    for (int f = 0; f < count; ++f)
       if (side_[own].value[f] >= enough) return AxisFeature::of_face(own, f);
-    }
   }
   const EdgePair* first = nullptr;
   for (const EdgePair& candidate : edge_pairs_) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace ballast {
 
@@ -23,9 +22,7 @@ Bounds bounding_box(const CollisionShape& shape, const Mat3& rotation, const Vec
     box.low = box.low.cwiseMin(p);
     box.high = box.high.cwiseMax(p);
   }
-  box.low += position;
-  box.high += position;
-  return box;
+  return {box.low + position, box.high + position};
 }
 
 BroadPhase::BroadPhase(std::vector<Body> bodies, double skin)
@@ -51,7 +48,6 @@ bool BroadPhase::still_valid(std::span<const Pose> poses, std::span<const double
   if (listed_pose_.empty()) return false;
   for (size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].shape) continue;
-    // A list holds while each body, with its reach, is within the box that it was listed with.
     const MotionBound moved = step_bound(listed_pose_[i], poses[i]);
     if (!(moved.shift + radius_[i] * moved.turn + reach[i] <= allowance_[i])) return false;
   }

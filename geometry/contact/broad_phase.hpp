@@ -22,8 +22,7 @@ struct MotionBound {
   double turn = 0.0;   ///< chord of the unit circle [1]
 };
 
-/// A bound on a step's motion. The chord of a rotation by phi is 2 sin(phi/2) <= 4 sin(phi/4), and
-/// 2 sin(phi/4) is the distance of the unit quaternions.
+/// A bound on a step's motion.
 MotionBound step_bound(const Pose& from, const Pose& to);
 
 /// Two polyhedra that may touch, a < b, and the memory of their last detection.
@@ -98,10 +97,9 @@ class BroadPhase {
   std::vector<double> radius_;  // circumradii [m], side by side for the processor's cache
   double skin_;
   std::vector<Pose> listed_pose_;  // poses when the list was made
-  std::vector<double>
-      allowance_;              // how far a surface may get from listed_pose_, reach included [m]
-  std::vector<Bounds> boxes_;  // grown by the allowance
-  std::vector<int> order_;     // polyhedra, sorted by the low end of their boxes
+  std::vector<double> allowance_;  // how far surfaces may get from listed_pose_, with reach [m]
+  std::vector<Bounds> boxes_;      // grown by the allowance
+  std::vector<int> order_;         // polyhedra, sorted by the low end of their boxes
   std::vector<Strip> strips_;
   std::vector<Found> found_;  // pairs found in all strips, sorted
   std::vector<CandidatePair> pairs_;

@@ -136,17 +136,15 @@ void ContactDetector::State::put_together(std::vector<ContactPoint>& contacts) {
 
 void ContactDetector::State::check(std::span<const Pose> poses,
                                    std::span<const double> reach) const {
-  const size_t count = body_count;
-  if (poses.size() != count || reach.size() != count)
-    throw std::invalid_argument("detect: " + std::to_string(count) + " bodies, but " +
+  if (poses.size() != body_count || reach.size() != body_count)
+    throw std::invalid_argument("detect: " + std::to_string(body_count) + " bodies, but " +
                                 std::to_string(poses.size()) + " poses and " +
                                 std::to_string(reach.size()) + " reaches");
-  for (size_t i = 0; i < poses.size(); ++i) {
+  for (size_t i = 0; i < poses.size(); ++i)
     if (!poses[i].position.allFinite() || !poses[i].rotation.coeffs().allFinite() ||
         !(reach[i] >= 0.0))
       throw std::invalid_argument("detect: pose or reach of body " + std::to_string(i) +
                                   " is not a finite number");
-  }
 }
 
 /// Deals the bodies out to the parts, so that each has about the same work.
@@ -164,10 +162,9 @@ void ContactDetector::State::share() {
   int begin = 0;
   for (size_t k = 0; k < parts.size(); ++k) {
     int end = begin;
-    for (;
-         end < bodies.count() && (k + 1 == parts.size() || passed * parts.size() < (k + 1) * total);
-         ++end)
-      passed += work_of(end);
+    while (end < bodies.count() &&
+           (k + 1 == parts.size() || passed * parts.size() < (k + 1) * total))
+      passed += work_of(end++);
     parts[k].take_range(begin, end);
     begin = end;
   }
@@ -244,9 +241,6 @@ void carry_range(std::span<const ContactPoint> old_contacts, std::span<const Vec
 void carry_impulses(std::span<const ContactPoint> old_contacts, std::span<const Vec3> old_impulses,
                     std::span<const ContactPoint> new_contacts, std::vector<Vec3>& carried,
                     WorkerTeam* team) {
-  // Both lists are sorted by pair and feature. An impulse goes to the point with its key. The
-  // impulse of a point that is gone goes to another point of its pair, so that a pair keeps its
-  // total impulse while it touches.
   const int count = static_cast<int>(new_contacts.size());
   carried.resize(new_contacts.size());
   run_ranges(team, count, /*together=*/256, [&](int begin, int end) {

@@ -32,10 +32,8 @@ std::uint64_t crossing_key(int reference, std::span<const CollisionShape::Corner
   if (!direction) return face.sides[k];
   const Vec3& from = face.corners[k].position;
   const Vec3 along = face.corners[k + 1 < face.corners.size() ? k + 1 : 0].position - from;
-  CollisionShape::Side side;
-  side.outward = along.cross(*direction).normalized();
-  side.offset = side.outward.dot(from);
-  return side;
+  const Vec3 outward = along.cross(*direction).normalized();
+  return {outward, outward.dot(from)};
 }
 
 bool may_be_joint(const SeparatingAxis& axis, const ManifoldLimits& limits) {
@@ -72,15 +70,14 @@ bool is_joint(const SeparatingAxis& axis, const ManifoldLimits& limits,
 std::span<ClippedPoint> FaceClipper::clip(const PairFrame& pair, int reference,
                                           const FaceView& face,
                                           std::span<const CollisionShape::Corner> incident,
-                                          double thickness, const Vec3* direction) {
+                                          const Vec3* direction) {
   polygon_.clear();
   for (const CollisionShape::Corner& corner : incident)
     polygon_.push_back({pair.other[reference] * corner.position, 0.0,
                         vertex_key(1 - reference, corner.vertex), corner.edge});
-  const size_t count = face.corners.size();
-  for (size_t k = 0; k < count && !polygon_.empty(); ++k) {
+  const double thickness = clipping_thickness(pair.size());
+  for (size_t k = 0; k < face.corners.size() && !polygon_.empty(); ++k)
     clip_by_side(reference, face, static_cast<int>(k), prism_side(face, k, direction), thickness);
-  }
   return polygon_;
 }
 
@@ -106,13 +103,9 @@ void FaceClipper::clip_by_side(int reference, const FaceView& face, int k,
     const bool leaves = here < -thickness && there > thickness,
                enters = here > thickness && there < -thickness;
     if (!leaves && !enters) continue;
-    ClippedPoint crossing;
-    crossing.position =
-        p.position + (polygon_[next].position - p.position) * (here / (here - there));
-    crossing.height = 0.0;
-    crossing.key = crossing_key(reference, face.corners, k, p.next_edge);
-    crossing.next_edge = leaves ? ~k : p.next_edge;
-    clipped_.push_back(crossing);
+    clipped_.push_back(
+        {p.position + (polygon_[next].position - p.position) * (here / (here - there)), 0.0,
+         crossing_key(reference, face.corners, k, p.next_edge), leaves ? ~k : p.next_edge});
   }
   polygon_.swap(clipped_);
 }
@@ -159,8 +152,7 @@ std::span<const ManifoldPoint> ContactManifold::points(const ShapePair& pair,
     if (meeting.is_sharp()) return crossing(pair, axis, a, b, limits);
     pair.shape[0]->write(meeting.face_a, face_of_[0]);
     pair.shape[1]->write(meeting.face_b, face_of_[1]);
-    const CollisionShape::FaceView beside_a = face_of_[0].view(), beside_b = face_of_[1].view();
-    return points(pair, axis, meeting, {a, b, beside_a, beside_b}, limits);
+    return points(pair, axis, meeting, {a, b, face_of_[0].view(), face_of_[1].view()}, limits);
   }
   const int reference = feature.reference(), face = feature.face();
   const CollisionShape &own = *pair.shape[reference], &other = *pair.shape[1 - reference];
@@ -196,9 +188,7 @@ std::span<const ManifoldPoint> ContactManifold::chosen_points(const PairFrame& p
   reduce(max_points, pair.size());
   points_.clear();
   for (const ClippedPoint& p : candidates_) points_.push_back(contact_at(pair, axis, p));
-  if (points_.size() > 1)
-    std::sort(points_.begin(), points_.end(),
-              [](const auto& p, const auto& q) { return p.key < q.key; });
+  if (points_.size() > 1) std::ranges::sort(points_, {}, &ManifoldPoint::key);
   return points_;
 }
 
@@ -216,8 +206,8 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
   const Vec3 direction =
       reference == 0 ? axis.direction : Vec3(-(pair.other[1].rotation * axis.direction));
   if (is_joint(pair, axis, limits, reference, face, incident.corners, &direction)) return {};
-  const std::span<ClippedPoint> corners = clipper_.clip(
-      pair, reference, face, incident.corners, clipping_thickness(pair.size()), &direction);
+  const std::span<ClippedPoint> corners =
+      clipper_.clip(pair, reference, face, incident.corners, &direction);
   set_heights(corners, face.face, direction);
   bool has_crossing = false;
   for (ClippedPoint p : corners) {
@@ -241,8 +231,7 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
   const CollisionShape::Face& face = faces.reference.face;
   const ClippedPoint touching = vertex_on_face(pair, axis, face, faces.vertex);
   const std::span<ClippedPoint> corners =
-      clipper_.clip(pair, axis.feature.reference(), faces.reference, faces.incident,
-                    clipping_thickness(pair.size()));
+      clipper_.clip(pair, axis.feature.reference(), faces.reference, faces.incident);
   set_heights(corners, face);
   double deepest = limits.alert + pair.size();
   for (const ClippedPoint& point : corners) {
@@ -267,13 +256,11 @@ void ContactManifold::reduce(int max_points, double size) {
   if (count <= max_points) return;
   by_key_.resize(count);
   for (int i = 0; i < count; ++i) by_key_[i] = i;
-  std::sort(by_key_.begin(), by_key_.end(),
-            [&](int i, int j) { return candidates_[i].key < candidates_[j].key; });
+  std::ranges::sort(by_key_, {}, [&](int i) { return candidates_[i].key; });
   chosen_.assign(count, 0);
   int deepest = by_key_[0];
-  for (const int i : by_key_) {
+  for (const int i : by_key_)
     if (candidates_[i].height < candidates_[deepest].height - 1e-13 * size) deepest = i;
-  }
   chosen_[deepest] = 1;
   const auto kept_beside = [&](int i, int step) {
     do i = (i + step + count) % count;
@@ -296,9 +283,8 @@ void ContactManifold::reduce(int max_points, double size) {
     chosen_[best] = 1;
   }
   int next = 0;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count; ++i)
     if (chosen_[i]) candidates_[next++] = candidates_[i];
-  }
   candidates_.erase(candidates_.begin() + next, candidates_.end());
 }
 

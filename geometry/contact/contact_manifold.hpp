@@ -59,10 +59,10 @@ class FaceClipper {
   /// Returns the part of the face with corners `incident` of body 1 - `reference` that lies within
   /// the prism on face `face` of body `reference`, counter-clockwise seen from the incident body's
   /// outside. The prism runs along the face's normal or, if given, along `direction`, a unit vector
-  /// in the reference body's frame; the face's sides are then not read. Corners up to `thickness`
-  /// [m] outside a side count as inside and stay where they are. Valid until the next call.
+  /// in the reference body's frame; the face's sides are then not read. Corners up to
+  /// clipping_thickness() outside a side stay where they are. Valid until the next call.
   std::span<ClippedPoint> clip(const PairFrame& pair, int reference, const FaceView& face,
-                               std::span<const CollisionShape::Corner> incident, double thickness,
+                               std::span<const CollisionShape::Corner> incident,
                                const Vec3* direction = nullptr);
 
  private:

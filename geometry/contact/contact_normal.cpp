@@ -1,7 +1,6 @@
 #include "geometry/contact/contact_normal.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace ballast {
 namespace {
@@ -31,12 +30,8 @@ ManifoldPoint contact_at(const PairFrame& pair, const SeparatingAxis& axis,
 ClippedPoint vertex_on_face(const PairFrame& pair, const SeparatingAxis& axis,
                             const CollisionShape::Face& face, const Vec3& vertex) {
   const int reference = axis.feature.reference();
-  ClippedPoint place;
-  place.position = pair.other[reference] * vertex;
-  place.height = height_over_face(face, place.position);
-  place.key = vertex_key(1 - reference, axis.support);
-  place.next_edge = -1;
-  return place;
+  const Vec3 position = pair.other[reference] * vertex;
+  return {position, height_over_face(face, position), vertex_key(1 - reference, axis.support), -1};
 }
 
 ClippedPoint edges_cross(const PairFrame& pair, const SeparatingAxis& axis,
@@ -48,13 +43,10 @@ ClippedPoint edges_cross(const PairFrame& pair, const SeparatingAxis& axis,
   //     ----- x_a -----   a's edge, at_a of its length from the tail
   const Vec3 on_a = a.from + std::clamp(axis.at_a, 0.0, 1.0) * a.along;
   const Vec3 on_b = pair.other[0] * (b.from + std::clamp(axis.at_b, 0.0, 1.0) * b.along);
-  ClippedPoint place;
-  place.key = feature_key(PointKind::edges, axis.feature.a, axis.feature.b);
-  place.height = axis.separation;
   // b's surface is half the height from the middle, unless the points are held at the ends.
-  place.position = 0.5 * (on_a + on_b) + 0.5 * place.height * axis.direction;
-  place.next_edge = -1;
-  return place;
+  const double height = axis.separation;
+  return {0.5 * (on_a + on_b) + 0.5 * height * axis.direction, height,
+          feature_key(PointKind::edges, axis.feature.a, axis.feature.b), -1};
 }
 
 EdgesMeeting::EdgesMeeting(const PairFrame& pair, const SeparatingAxis& axis,

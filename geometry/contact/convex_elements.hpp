@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "geometry/contact/contact_point.hpp"
-#include "geometry/shape/period.hpp"
 
 namespace ballast {
 

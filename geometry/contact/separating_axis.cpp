@@ -1,7 +1,6 @@
 #include "geometry/contact/separating_axis.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace ballast {
 namespace {
@@ -149,9 +148,8 @@ std::optional<SeparatingAxis> evaluate_axis(const ShapePair& pair, const AxisFea
 }
 
 double face_isolation(const ShapePair& pair, const AxisFeature& feature) {
-  if (feature.kind == AxisKind::face_of_a) return pair.shape[0]->face(feature.a).isolation;
-  if (feature.kind == AxisKind::face_of_b) return pair.shape[1]->face(feature.b).isolation;
-  return 1.0;
+  if (feature.kind == AxisKind::edges) return 1.0;
+  return pair.shape[feature.reference()]->face(feature.face()).isolation;
 }
 
 /// Let n0 be the axis, s0 its separation, and n = n0 cos t + e sin t another unit vector, e

@@ -78,12 +78,11 @@ struct SeparatingAxis {
   double separation;  ///< gap along the direction [m]; negative = overlap
   int support = -1;   ///< of a face: the other body's vertex nearest to its plane (smallest index
                       ///< among equals)
-  double at_a = 0.0,
-         at_b =
-             0.0;  ///< of two edges: closest points of their lines, from the tails in edge lengths
-  double inside;   ///< how far inside the facet the origin projects [m]: of a face, where the
-                   ///< support vertex projects; of two edges, where the lines' closest points lie;
-                   ///< negative outside
+  /// Of two edges: the closest points of their lines, from the tails in edge lengths.
+  double at_a = 0.0, at_b = 0.0;
+  double inside;  ///< how far inside the facet the origin projects [m]: of a face, where the
+                  ///< support vertex projects; of two edges, where the lines' closest points lie;
+                  ///< negative outside
   double clearance;  ///< how much farther off than the touching vertex or edge all other vertices
                      ///< are [m]; of two edges a lower bound
 };
@@ -116,9 +115,8 @@ struct EdgeSeparation {
   Vec3 along_b;    ///< b's edge in a's frame
   double cross;    ///< along_a x along_b = cross * direction
   bool nearly_parallel = false;
-  double weight_a,
-      weight_b;  ///< for CollisionShape::Edge::drop: the smaller |normal of a face beside the edge
-                 ///< . other edge|
+  /// For CollisionShape::Edge::drop: the smaller |normal of a face beside the edge . other edge|.
+  double weight_a, weight_b;
 };
 /// Separation along the facet of edges ea of a and eb of b; empty if they form no facet or count as
 /// parallel.

@@ -68,7 +68,7 @@ double BoxClipper::volume(const Polyhedron& polyhedron, const Pose& pose, const 
 double BoxClipper::cut_volume(const Polyhedron& polyhedron, Cuts cuts) {
   // By the divergence theorem 3 V is the sum over faces of area times height over the apex, and a
   // triangle (a, b, c) of a face adds det(a, b, c) to 6 V. The faces that the cut makes lie in
-  // planes through the apex and add nothing.
+  // planes through the apex and add nothing: they are never built.
   Vec3 apex = world_[0];  // arbitrary along directions that are not cut
   for (const HalfSpace& cut : cuts) apex[cut.axis] = cut.at;
   points_.clear();
@@ -118,8 +118,7 @@ void BoxClipper::clip_face(std::span<const int> loop, Cuts cuts, unsigned any) {
       if (height_a <= 0.0) next_polygon_.push_back(a);
       if ((height_a < 0.0 && height_b > 0.0) || (height_a > 0.0 && height_b < 0.0)) {
         next_polygon_.push_back(a + height_a / (height_a - height_b) * (b - a));
-        next_polygon_.back()[axis] =
-            0.0;  // exactly on the plane, so that the cut face adds exactly nothing
+        next_polygon_.back()[axis] = 0.0;  // exactly, so that the cut face adds exactly nothing
       }
     }
     std::swap(polygon_, next_polygon_);

@@ -10,11 +10,6 @@ namespace ballast {
 
 /// Volume of (pose * polyhedron) within [lo, hi]. A workspace: no allocation once its buffers have
 /// grown.
-///
-/// Uses the divergence theorem about a point o on all the planes that cut: the faces that the cut
-/// makes lie in planes through o and add nothing, so that only the clipped old faces are summed and
-/// the cut faces are never built. At most one plane cuts in each direction; a polyhedron that both
-/// planes of a direction cut is taken as a difference of two.
 class BoxClipper {
  public:
   /// `full_volume`: that of the whole polyhedron [m^3], returned when the box holds it all. The

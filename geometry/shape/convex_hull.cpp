@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -101,9 +102,8 @@ class QhullRun {
         return (link.first == at && link.second != previous) ||
                (link.second == at && link.first != previous);
       });
-      if (next == links.end() || chain.size() > links.size()) {
+      if (next == links.end() || chain.size() > links.size())
         throw InvalidPolyhedron("a face of the hull is no simple loop");
-      }
       at = next->first == at ? next->second : next->first;
     }
     return chain;
@@ -119,11 +119,10 @@ double half_extent(std::span<const Vec3> points) {
   if (points.size() < 4)
     throw InvalidPolyhedron("no convex hull: at least 4 points are needed, got " +
                             std::to_string(points.size()));
-  for (size_t i = 0; i < points.size(); ++i) {
+  for (size_t i = 0; i < points.size(); ++i)
     if (!points[i].allFinite())
       throw InvalidPolyhedron("no convex hull: point " + std::to_string(i) +
                               " has a coordinate that is NaN or infinite");
-  }
   const double half = 0.5 * bounds_of(points).largest_extent();
   if (!(half > 0.0)) throw InvalidPolyhedron("no convex hull: all points coincide");
   // The cube of the half-extent stands for the volume: no mass could
@@ -136,9 +135,7 @@ double half_extent(std::span<const Vec3> points) {
 /// Throws when the points lie on a line or in a plane: thickness below thinnest.
 void check_spatial(const std::vector<Vec3>& points) {
   const auto farthest = [&](auto distance) {
-    return *std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
-      return distance(a) < distance(b);
-    });
+    return *std::ranges::max_element(points, {}, distance);
   };
   // Four points span the set, each the farthest from those before: a, a second one, c off the line
   // through both, and one off the plane of the three. Flat sets fail at c or at the last.
@@ -170,9 +167,8 @@ std::vector<Vec3> normalised(std::span<const Vec3> points) {
 std::vector<int> distinct(const std::vector<Vec3>& points) {
   const std::vector<int> first = first_close(points, weld);
   std::vector<int> kept;
-  for (size_t i = 0; i < points.size(); ++i) {
+  for (size_t i = 0; i < points.size(); ++i)
     if (first[i] == static_cast<int>(i)) kept.push_back(static_cast<int>(i));
-  }
   return kept;
 }
 
@@ -214,11 +210,9 @@ Polyhedron solid_of(std::span<const Vec3> points, Loops loops) {
 /// The flattest corner of each face if it is flatter than `lowest_kept`; it may be straight or
 /// re-entrant, as merging leaves such corners too. At most one per face and none beside another:
 /// once one is gone, the hull of the other points may well keep its neighbour.
-std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points,
-                              double lowest_kept) {
-  std::vector<int> flat;
-  std::vector<bool> is_listed(points.size(), false);
-  const auto listed = [&](int v) { return is_listed[static_cast<size_t>(v)]; };
+std::set<int> flat_corners(const Loops& loops, const std::vector<Vec3>& points,
+                           double lowest_kept) {
+  std::set<int> flat;
   for (const auto& loop : loops) {
     const size_t n = loop.size();
     const Vec3 normal = area_vector(loop, points).normalized();
@@ -229,17 +223,14 @@ std::vector<int> flat_corners(const Loops& loops, const std::vector<Vec3>& point
       // between these it is the corner's height.
       const Vec3 in = points[loop[k]] - points[loop[(k + n - 1) % n]];
       const Vec3 out = points[loop[(k + 1) % n]] - points[loop[k]];
-      const double height =
-          normal.dot(in.cross(out)) / (in + out).norm();  // negative: re-entrant after merging
+      const double height = normal.dot(in.cross(out)) / (in + out).norm();
       if (height < lowest) {
         lowest = height;
         corner = loop[k];
       }
     }
-    // Drops one corner of a face per round: its neighbours may rise enough once it is gone.
-    if (corner < 0 || std::any_of(loop.begin(), loop.end(), listed)) continue;
-    flat.push_back(corner);
-    is_listed[static_cast<size_t>(corner)] = true;
+    if (corner >= 0 && std::ranges::none_of(loop, [&](int v) { return flat.contains(v); }))
+      flat.insert(corner);
   }
   return flat;
 }
@@ -260,10 +251,9 @@ Loops hull_loops(const std::vector<Vec3>& points, const Tolerance& tolerance) {
     for (auto& loop : loops)
       for (int& v : loop) v = kept[v];
     make_canonical(loops, points);
-    std::vector<int> flat = flat_corners(loops, points, tolerance.corner);
+    const std::set<int> flat = flat_corners(loops, points, tolerance.corner);
     if (flat.empty()) return loops;
-    std::sort(flat.begin(), flat.end());
-    std::erase_if(kept, [&](int i) { return std::binary_search(flat.begin(), flat.end(), i); });
+    std::erase_if(kept, [&](int i) { return flat.contains(i); });
   }
   throw InvalidPolyhedron("fewer than 4 distinct corners");
 }

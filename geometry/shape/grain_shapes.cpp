@@ -14,8 +14,7 @@ namespace ballast {
 namespace {
 
 void check(const GrainShapeSettings& s) {
-  // The axes of a grain's ellipsoid are 1 >= elongation >= flatness >
-  // 0, in units of the longest one.
+  // The axes of a grain's ellipsoid: 1 >= elongation >= flatness > 0, relative to the longest.
   const bool ratios_ok = 0.0 < s.elongation_min && s.elongation_min <= s.elongation_max &&
                          s.elongation_max <= 1.0 && 0.0 < s.flatness_min &&
                          s.flatness_min <= s.flatness_max && s.flatness_max <= 1.0 &&
@@ -124,11 +123,9 @@ Polyhedron make_sphere(double radius, int subdivisions) {
   // ratio g. All have the same distance from the origin.
   const double golden = 0.5 * (1.0 + std::sqrt(5.0));
   std::vector<Vec3> points;
-  for (const double a : {-1.0, 1.0}) {
-    for (const double b : {-golden, golden}) {
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-golden, golden})
       points.insert(points.end(), {Vec3(0.0, a, b), Vec3(a, b, 0.0), Vec3(b, 0.0, a)});
-    }
-  }
   for (Vec3& p : points) p *= radius / p.norm();
   Polyhedron sphere = convex_hull(points);
   for (int level = 0; level < subdivisions; ++level) {

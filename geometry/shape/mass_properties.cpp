@@ -55,16 +55,12 @@ MassProperties mass_properties(const Polyhedron& polyhedron) {
                 (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
     }
   }
-  MassProperties result;
-  result.volume = volume;
   const Vec3 centre = first / volume;
-  result.centre = reference + centre;
   // The sums are about the reference point. Steiner's theorem takes the second moment to the centre
   // of mass, S = S_ref - V c c', and the inertia of unit density is tr(S) 1 - S: on its diagonal
   // y^2 + z^2, z^2 + x^2, x^2 + y^2, off it -xy, -yz, -zx.
   const Mat3 about_centre = second - volume * centre * centre.transpose();
-  result.inertia = about_centre.trace() * Mat3::Identity() - about_centre;
-  return result;
+  return {volume, reference + centre, about_centre.trace() * Mat3::Identity() - about_centre};
 }
 
 PrincipalShape to_principal_frame(const Polyhedron& polyhedron) {

@@ -129,24 +129,20 @@ RawMesh read_obj(const std::filesystem::path& file, std::string_view text) {
     std::string_view line = next_line(text);
     line = line.substr(0, line.find('#'));
     const std::string_view keyword = next_word(line);
-    if (keyword == "v") {
+    if (keyword == "v")
       read_vertex(line, place, mesh);
-    } else if (keyword == "f") {
+    else if (keyword == "f")
       read_face(line, place, mesh);
-    } else if (!keyword.empty() &&
-               std::find(ignored.begin(), ignored.end(), keyword) == ignored.end()) {
+    else if (!keyword.empty() && std::ranges::find(ignored, keyword) == ignored.end())
       place.fail("unknown OBJ statement " + quoted(keyword));
-    }
   }
   // Indices are checked at the end: a face may name vertices that come after it.
   const int count = static_cast<int>(mesh.vertices.size());
-  for (size_t f = 0; f < mesh.faces.size(); ++f) {
-    for (const int v : mesh.faces[f]) {
+  for (size_t f = 0; f < mesh.faces.size(); ++f)
+    for (const int v : mesh.faces[f])
       if (v >= count)
         Place{file, mesh.face_lines[f]}.fail("face names vertex " + std::to_string(v + 1) + " of " +
                                              std::to_string(count));
-    }
-  }
   return mesh;
 }
 
@@ -156,19 +152,15 @@ RawMesh read_obj(const std::filesystem::path& file, std::string_view text) {
 constexpr double same_corner = 1e-6;
 constexpr size_t header_bytes = 84, record_bytes = 50;  // [bytes], the count included
 
-/// Corners of the triangles, three by three, and each triangle's line (0 in binary files).
-struct Soup {
-  std::vector<Vec3> corners;
-  std::vector<int> lines;
-};
-
 std::uint32_t little_endian(std::string_view bytes) {
   std::uint32_t value = 0;
   for (int k = 3; k >= 0; --k) value = value << 8 | static_cast<unsigned char>(bytes[k]);
   return value;
 }
 
-Soup read_binary(const std::filesystem::path& file, std::string_view content) {
+// A reader returns a soup of triangles: their corners, three by three, as vertices, and no faces.
+
+RawMesh read_binary(const std::filesystem::path& file, std::string_view content) {
   const Place place{file};
   if (content.size() < header_bytes)
     place.fail("neither text STL (no 'solid') nor binary STL (" + std::to_string(content.size()) +
@@ -178,7 +170,7 @@ Soup read_binary(const std::filesystem::path& file, std::string_view content) {
     place.fail("truncated or no binary STL: " + std::to_string(count) + " triangles take " +
                std::to_string(header_bytes + record_bytes * count) + " bytes, the file has " +
                std::to_string(content.size()));
-  Soup soup;
+  RawMesh soup;
   // A record, all numbers little-endian floats; the normal is not read:
   //
   //     bytes   0         12         24         36         48      50
@@ -191,9 +183,9 @@ Soup read_binary(const std::filesystem::path& file, std::string_view content) {
         p[x] = std::bit_cast<float>(little_endian(record.substr(12 + 12 * k + 4 * x)));
       if (!p.allFinite())
         place.fail("triangle " + std::to_string(t) + " has a coordinate that is not finite");
-      soup.corners.push_back(p);
+      soup.vertices.push_back(p);
     }
-    soup.lines.push_back(0);
+    soup.face_lines.push_back(0);
   }
   return soup;
 }
@@ -231,8 +223,8 @@ class TextReader {
 
 /// Reads a facet after the word "facet". Its normal may be anything, even NaN, as some programs
 /// write it for thin triangles.
-void read_facet(TextReader& reader, Soup& soup) {
-  soup.lines.push_back(reader.place().line);
+void read_facet(TextReader& reader, RawMesh& soup) {
+  soup.face_lines.push_back(reader.place().line);
   reader.expect("normal");
   for (int x = 0; x < 3; ++x) reader.word();
   reader.expect("outer");
@@ -241,7 +233,7 @@ void read_facet(TextReader& reader, Soup& soup) {
     reader.expect("vertex");
     Vec3 p;
     for (double& x : p) x = reader.coordinate();
-    soup.corners.push_back(p);
+    soup.vertices.push_back(p);
   }
   reader.expect("endloop");
   reader.expect("endfacet");
@@ -252,8 +244,8 @@ void read_facet(TextReader& reader, Soup& soup) {
 ///     solid NAME
 ///       facet normal x y z   outer loop   (vertex x y z) three times   endloop   endfacet
 ///     endsolid NAME
-Soup read_text(const std::filesystem::path& file, std::string_view content) {
-  Soup soup;
+RawMesh read_text(const std::filesystem::path& file, std::string_view content) {
+  RawMesh soup;
   TextReader reader(file, content);
   for (std::string_view word = reader.word(); !word.empty(); word = reader.word()) {
     if (!is_same_word(word, "solid"))
@@ -288,27 +280,27 @@ RawMesh read_stl(const std::filesystem::path& file, std::string_view content) {
   const bool has_zero = content.find('\0') != std::string_view::npos;
   std::string_view start = content;
   const bool is_text = !has_zero && is_same_word(next_word(start), "solid");
-  const Soup soup = is_text ? read_text(file, content) : read_binary(file, content);
+  const RawMesh soup = is_text ? read_text(file, content) : read_binary(file, content);
 
   // Every triangle brings its own corners: those that are the same become one vertex, numbered in
   // the order in which they first appear.
   RawMesh mesh;
-  const std::vector<int> first = first_equals(soup.corners);
-  std::vector<int> index(soup.corners.size(), -1);
-  for (size_t t = 0; t < soup.lines.size(); ++t) {
+  const std::vector<int> first = first_equals(soup.vertices);
+  std::vector<int> index(soup.vertices.size(), -1);
+  for (size_t t = 0; t < soup.face_lines.size(); ++t) {
     std::vector<int> face;
     for (size_t k = 3 * t; k < 3 * t + 3; ++k) {
       int& v = index[first[k]];
       if (v < 0) {
         v = static_cast<int>(mesh.vertices.size());
-        mesh.vertices.push_back(soup.corners[k]);
-        mesh.vertex_lines.push_back(soup.lines[t]);
+        mesh.vertices.push_back(soup.vertices[k]);
+        mesh.vertex_lines.push_back(soup.face_lines[t]);
       }
       face.push_back(v);
     }
     mesh.faces.push_back(std::move(face));
   }
-  mesh.face_lines = soup.lines;
+  mesh.face_lines = soup.face_lines;
   mesh.is_single = !is_text;
   return mesh;
 }
@@ -353,16 +345,10 @@ RawMesh read_raw(const std::filesystem::path& file, double scale) {
 /// Throws MeshFileError: the message of `error` with the line of the face or vertex it is about.
 [[noreturn]] void fail_at(const std::filesystem::path& file, const RawMesh& mesh,
                           const InvalidPolyhedron& error) {
-  int line = 0;
-  std::string counting = " (faces and vertices count from 0)";
-  if (error.face >= 0) {
-    line = mesh.face_lines[error.face];
-  } else if (error.vertex >= 0) {
-    line = mesh.vertex_lines[error.vertex];
-  } else {
-    counting.clear();
-  }
-  Place{file, line}.fail(error.what() + counting);
+  const std::string what = error.what(), counting = " (faces and vertices count from 0)";
+  if (error.face >= 0) Place{file, mesh.face_lines[error.face]}.fail(what + counting);
+  if (error.vertex >= 0) Place{file, mesh.vertex_lines[error.vertex]}.fail(what + counting);
+  Place{file}.fail(what);
 }
 
 /// Throws for meshes so large that comparing them with themselves would take minutes.

@@ -27,18 +27,16 @@ template <class... Parts>
 
 /// Throws unless there are at least four vertices, with finite coordinates.
 void check_coordinates(std::span<const Vec3> vertices) {
-  for (size_t v = 0; v < vertices.size(); ++v) {
+  for (size_t v = 0; v < vertices.size(); ++v)
     if (!vertices[v].allFinite())
       invalid(At{.vertex = static_cast<int>(v)}, "vertex ", v,
               " has a coordinate that is NaN or infinite");
-  }
   if (vertices.size() < 4)
     invalid(At{}, "a polyhedron needs at least 4 vertices, got ", vertices.size());
 }
 
 /// Throws unless faces have at least 3 vertices, all in range and different, and none is unused.
 void check_indices(int vertex_count, const std::vector<std::vector<int>>& faces) {
-  std::vector<bool> used(vertex_count, false);
   std::vector<int> last_face(vertex_count, -1);  // in which a vertex was found
   for (size_t f = 0; f < faces.size(); ++f) {
     const At here{.face = static_cast<int>(f)};
@@ -50,12 +48,10 @@ void check_indices(int vertex_count, const std::vector<std::vector<int>>& faces)
       if (last_face[v] == static_cast<int>(f))
         invalid(here, "face ", f, " passes through vertex ", v, " twice");
       last_face[v] = static_cast<int>(f);
-      used[v] = true;
     }
   }
-  for (int v = 0; v < vertex_count; ++v) {
-    if (!used[v]) invalid(At{.vertex = v}, "vertex ", v, " belongs to no face");
-  }
+  for (int v = 0; v < vertex_count; ++v)
+    if (last_face[v] < 0) invalid(At{.vertex = v}, "vertex ", v, " belongs to no face");
 }
 
 /// A vertex may lie `tolerance` times the size of the whole mesh off the plane normal.x = offset.
@@ -154,16 +150,14 @@ void Polyhedron::join_faces() {
     int face, slot;  // slot: position in face_vertices_
   };
   std::vector<HalfEdge> halves;
-  for (int f = 0; f < face_count(); ++f) {
+  for (int f = 0; f < face_count(); ++f)
     for (int k = face_begin_[f]; k < face_begin_[f + 1]; ++k) {
       const int a = face_vertices_[k],
                 b = face_vertices_[k + 1 < face_begin_[f + 1] ? k + 1 : face_begin_[f]];
       halves.push_back({std::min(a, b), std::max(a, b), b < a, f, k});
     }
-  }
-  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::tie(a.low, a.high, a.downwards, a.slot) <
-           std::tie(b.low, b.high, b.downwards, b.slot);
+  std::ranges::sort(halves, {}, [](const HalfEdge& half) {
+    return std::tuple(half.low, half.high, half.downwards, half.slot);
   });
   // Sorted, the half-edges of one edge stand side by side, the upward one first.
   face_neighbours_.assign(face_vertices_.size(), -1);
@@ -202,9 +196,7 @@ std::vector<Polyhedron::Edge> Polyhedron::edges() const {
       if (loop[k] < to) edges.push_back({loop[k], to, f, across[k]});
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& g) {
-    return std::tie(e.tail, e.head) < std::tie(g.tail, g.head);
-  });
+  std::ranges::sort(edges, {}, [](const Edge& edge) { return std::pair(edge.tail, edge.head); });
   return edges;
 }
 
@@ -221,22 +213,20 @@ void Polyhedron::check_one_piece() const {
   std::vector<int> reached{0};
   std::vector<bool> seen(normals_.size(), false);
   seen[0] = true;
-  for (size_t i = 0; i < reached.size(); ++i) {
+  for (size_t i = 0; i < reached.size(); ++i)
     for (const int g : face_neighbours(reached[i])) {
       if (!seen[g]) reached.push_back(g);
       seen[g] = true;
     }
-  }
   if (static_cast<int>(reached.size()) != face_count()) {
     const auto missed = std::find(seen.begin(), seen.end(), false) - seen.begin();
     invalid(At{.face = static_cast<int>(missed)}, "the mesh has several pieces: face ", missed,
             " cannot be reached from face 0");
   }
   const int euler = vertex_count() - edge_count() + face_count();
-  if (euler != 2) {
+  if (euler != 2)
     invalid(At{}, "not a sphere: vertices - edges + faces = ", euler,
             " instead of 2 (a handle, or a vertex where the surface touches itself)");
-  }
 }
 
 /// Returns each face's extent over twice its area: one over a height, large for thin faces.
@@ -270,8 +260,7 @@ std::vector<double> Polyhedron::build_planes(double tolerance) {
     thinness.push_back(extent / length);
     check_loop(vertices_, f, loop, normals_[f], offsets_[f], size_, tolerance);
   }
-  const double thickness =
-      2.0 / 3.0 * volume6 / surface2;  // of a plate: volume over half the surface
+  const double thickness = 2.0 / 3.0 * volume6 / surface2;  // volume over half the surface
   if (thickness < -tolerance * size_)
     invalid(At{}, "all faces are turned inward: the enclosed volume is negative");
   if (!(thickness > tolerance * size_)) invalid(At{}, "the mesh is flat: it encloses no volume");

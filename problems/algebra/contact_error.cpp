@@ -167,11 +167,8 @@ ContactError infinite_error() {
 double stopping_impulse(const DynamicsForm& dynamics, const Eigen::VectorXd& p) {
   double most = 0.0;
   for (int b = 0; b < dynamics.body_count(); ++b) {
-    const int dofs = dynamics.body_dofs(b), first = dynamics.dof_begin[b];
-    if (p.segment(first, dofs).isZero(0.0)) continue;
-    const Eigen::Map<const Eigen::MatrixXd> block(dynamics.mass.data() + dynamics.mass_begin[b],
-                                                  dofs, dofs);
-    most = std::max(most, (block * dynamics.v_free.segment(first, dofs)).norm());
+    const bool is_free = p.segment(dynamics.dof_begin[b], dynamics.body_dofs(b)).isZero(0.0);
+    if (!is_free) most = std::max(most, dynamics.momentum(b));
   }
   return most;
 }

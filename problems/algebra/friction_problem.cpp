@@ -9,7 +9,6 @@
 
 #include "platform/for_each_cpu.hpp"
 #include "platform/worker_team.hpp"
-#include "problems/algebra/mass_root.hpp"
 
 namespace ballast {
 namespace {

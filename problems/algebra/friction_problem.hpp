@@ -61,6 +61,12 @@ struct DynamicsForm {
   int body_count() const { return static_cast<int>(dof_begin.size()) - 1; }
   int dof_count() const { return dof_begin.back(); }
   int body_dofs(int body) const { return body < 0 ? 0 : dof_begin[body + 1] - dof_begin[body]; }
+  /// |M v_free| of a body: the impulse that would stop it. It mixes linear and angular momenta.
+  double momentum(int body) const {
+    const int dofs = body_dofs(body);
+    const Eigen::Map<const Eigen::MatrixXd> block(mass.data() + mass_begin[body], dofs, dofs);
+    return (block * v_free.segment(dof_begin[body], dofs)).norm();
+  }
 
   /// Appends a body with this mass block, 1 x 1 to 6 x 6, and returns its number. The caller sizes
   /// v_free.

@@ -59,15 +59,13 @@ void choose_solution(const KnownSolutionSettings& settings, double mu, int rows,
   // Closed: with r on the cone's side it slips against r, with r inside the cone it sticks.
   r[0] = force;
   if (rows == 1) return;
-  if (kind < settings.open_fraction + settings.slip_fraction) {
-    r[1] = mu * force * t1;
-    r[2] = mu * force * t2;
+  const bool slips = kind < settings.open_fraction + settings.slip_fraction;
+  const double share = slips ? 1.0 : random.uniform(0.0, 0.95);
+  r[1] = share * mu * force * t1;
+  r[2] = share * mu * force * t2;
+  if (slips) {
     u[1] = -speed * t1;
     u[2] = -speed * t2;
-  } else {
-    const double share = random.uniform(0.0, 0.95);
-    r[1] = share * mu * force * t1;
-    r[2] = share * mu * force * t2;
   }
 }
 
@@ -108,9 +106,8 @@ KnownSolution make_known_solution(const KnownSolutionSettings& settings) {
   for (double& v : dynamics.v_free) v = random.uniform(-1, 1);
   // bias = u - H v makes (r, u) the solution.
   dynamics.bias.setZero(problem.row_count());
-  Eigen::VectorXd v, moved;
-  body_velocity(dynamics, problem.row_begin, known.r, v);
-  body_to_contact_velocity(dynamics, problem.row_begin, v, moved);
+  Eigen::VectorXd moved;
+  contact_velocity(problem, known.r, moved);
   dynamics.bias = known.u - moved;
 
   // Copies share their contact's impulse and have its velocity.

@@ -103,8 +103,7 @@ class Pile {
         if (b >= step && step > 0)
           pairs_.push_back({b - step, b, (centre_[b] - centre_[b - step]).norm()});
     }
-    std::stable_sort(pairs_.begin(), pairs_.end(),
-                     [](const Pair& x, const Pair& y) { return x.distance < y.distance; });
+    std::ranges::stable_sort(pairs_, {}, &Pair::distance);
     const size_t most = static_cast<size_t>(std::min(settings_.contacts, 3 * bodies));
     pairs_.resize(std::min(pairs_.size(), std::max<size_t>(1, most)));
   }
@@ -192,9 +191,7 @@ int add_body(FrictionProblem& problem, const Eigen::VectorXd& diagonal,
 }
 
 StressProblem start(std::string name, const char* family) {
-  StressProblem stress;
-  stress.name = std::move(name);
-  stress.family = family;
+  StressProblem stress{std::move(name), family, {}, {}, {}};
   stress.problem.has_dynamics = true;
   return stress;
 }

@@ -15,8 +15,8 @@ struct alignas(64) MassRoot {
   double inverse[max_dofs];  ///< 1 / L_ii
   int dofs = 0;
   bool diagonal = true;
-  std::unique_ptr<double[]>
-      l;  ///< unless `diagonal`: column-major, stride max_dofs, lower triangle
+  /// Unless `diagonal`: column-major, stride max_dofs, lower triangle.
+  std::unique_ptr<double[]> l;
 
   /// `mass` is dofs x dofs, column-major; its lower triangle is read. False: not positive definite.
   bool factor(const double* mass, int dof_count);

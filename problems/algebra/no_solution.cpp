@@ -63,16 +63,6 @@ struct Prover {
   }
 };
 
-/// |M v_free|; 0 for a body that does not move. The norm mixes linear and angular momenta, which
-/// can only make a claim rarer.
-double momentum_of(const DynamicsForm& dynamics, int body) {
-  if (body < 0) return 0.0;
-  const int dofs = dynamics.body_dofs(body);
-  const Eigen::Map<const Eigen::MatrixXd> mass(&dynamics.mass[dynamics.mass_begin[body]], dofs,
-                                               dofs);
-  return (mass * dynamics.v_free.segment(dynamics.dof_begin[body], dofs)).norm();
-}
-
 /// Replaces values by the largest of their contact's island; where only W is known, of all.
 void spread_over_islands(const FrictionProblem& problem, std::vector<double>& values) {
   if (values.empty()) return;
@@ -105,9 +95,10 @@ NoSolutionProof prove_no_solution(const FrictionProblem& problem, const Impulses
     if (lambda > 0.0)
       prover.natural[c] =
           prover.q.segment(problem.row_begin[c], problem.contact_rows(c)).norm() / lambda;
-    if (problem.has_dynamics)
-      for (const int body : {problem.dynamics.body_a[c], problem.dynamics.body_b[c]})
-        prover.natural[c] = std::max(prover.natural[c], momentum_of(problem.dynamics, body));
+    if (!problem.has_dynamics) continue;
+    for (const int body : {problem.dynamics.body_a[c], problem.dynamics.body_b[c]})
+      if (body >= 0)  // that angular momenta count, too, can only make a claim rarer
+        prover.natural[c] = std::max(prover.natural[c], problem.dynamics.momentum(body));
   }
   spread_over_islands(problem, prover.natural);
   NoSolutionProof best;

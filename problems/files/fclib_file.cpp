@@ -215,8 +215,7 @@ Matrix read_matrix(const Hdf5Reader& file, const std::string& group, int rows, i
     file.fail(group + "/nz = " + std::to_string(nz) + " is no known storage");
   const bool by_rows = nz == compressed_rows;
   const int lines = nz >= 0 ? 0 : by_rows ? rows : columns;
-  std::optional<std::size_t> ends;
-  if (nz < 0) ends = static_cast<std::size_t>(lines) + 1;
+  const auto ends = nz < 0 ? std::optional(static_cast<std::size_t>(lines) + 1) : std::nullopt;
   const std::vector<int> p = file.read<int>(group + "/p", ends), i = file.read<int>(group + "/i");
   const std::vector<double> x = file.read<double>(group + "/x");
 
@@ -237,18 +236,9 @@ Matrix read_matrix(const Hdf5Reader& file, const std::string& group, int rows, i
   require("/i", i.size());
   require("/x", x.size());
 
-  const auto each_entry = [&](const auto& visit) {
-    // A line has the entries from p[line] to before p[line + 1]; i says where in it each stands.
-    for (int line = 0; line < lines; ++line)
-      for (int k = p[line]; k < p[line + 1]; ++k)
-        visit(k, by_rows ? line : i[k], by_rows ? i[k] : line);
-    // fclib.h says p = rows, i = columns of triplets; all files, and CSparse from which the
-    // structure comes, have p = columns, i = rows.
-    for (int k = 0; k < nz; ++k) visit(k, i[k], p[k]);
-  };
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(count));
-  each_entry([&](int k, int row, int column) {
+  const auto add = [&](int k, int row, int column) {
     if (row < 0 || row >= rows || column < 0 || column >= columns)
       file.fail(group + ": entry " + std::to_string(k) + " at (" + std::to_string(row) + ", " +
                 std::to_string(column) + ") is outside " + by(rows, columns));
@@ -256,7 +246,14 @@ Matrix read_matrix(const Hdf5Reader& file, const std::string& group, int rows, i
       file.fail(group + "/x[" + std::to_string(k) + "] = " + std::to_string(x[k]) +
                 " is not finite");
     entries.emplace_back(row, column, x[k]);
-  });
+  };
+  // A line has the entries from p[line] to before p[line + 1]; i says where in it each stands.
+  for (int line = 0; line < lines; ++line)
+    for (int k = p[line]; k < p[line + 1]; ++k)
+      add(k, by_rows ? line : i[k], by_rows ? i[k] : line);
+  // fclib.h says p = rows, i = columns of triplets; all files, and CSparse from which the structure
+  // comes, have p = columns, i = rows.
+  for (int k = 0; k < nz; ++k) add(k, i[k], p[k]);
   Matrix matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;

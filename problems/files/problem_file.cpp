@@ -34,8 +34,7 @@ void add_problems(const fs::path& path, std::vector<FoundProblem>& problems) {
       problems.push_back({entry.path(), entry.path().lexically_relative(path)});
   if (problems.size() == static_cast<size_t>(before))
     throw Error(path.string() + ": no problem file " + suffixes + " in this folder");
-  std::sort(problems.begin() + before, problems.end(),
-            [](const FoundProblem& a, const FoundProblem& b) { return a.file < b.file; });
+  std::ranges::sort(problems.begin() + before, problems.end(), {}, &FoundProblem::file);
 }
 
 }  // namespace

@@ -155,8 +155,7 @@ double ControlVolume::solid_fraction(const MechanicalSystem& system, const Motio
     const RigidBody& body = system.bodies[b];
     inside_[b] = clipper.volume(*body.shape.polyhedron, state.pose[b], lo_, hi_, body.volume);
   });
-  // The grains' volumes within the box over the box's own; overlaps count twice. They are summed in
-  // order, whichever thread clipped them, so that the bits are the same.
+  // They are summed in order, whichever thread clipped them, so that the bits are the same.
   return std::accumulate(inside_.begin(), inside_.end(), 0.0) / volume();
 }
 

@@ -1,4 +1,4 @@
-#include "problems/scene/body_shapes.hpp"
+// Reads the shapes of bodies: the keys of [[body]] and of its parts.
 
 #include <cmath>
 #include <numbers>
@@ -7,6 +7,7 @@
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/mesh_file.hpp"
 #include "platform/text.hpp"
+#include "problems/scene/scene_bodies.hpp"
 
 namespace ballast {
 namespace fs = std::filesystem;
@@ -15,12 +16,8 @@ namespace {
 using enum Presence;
 
 ReadShape of_one(PrincipalShape&& solid) {
-  ReadShape shape;
-  shape.hull = std::make_shared<const Polyhedron>(std::move(solid.shape));
-  shape.volume = solid.volume;
-  shape.inertia = solid.inertia;
-  shape.pose = solid.pose;
-  return shape;
+  auto hull = std::make_shared<const Polyhedron>(std::move(solid.shape));
+  return {{std::move(hull), {}, solid.volume, solid.inertia, solid.pose}, false, ""};
 }
 
 ReadShape of_parts(std::span<const PlacedShape> parts) {

@@ -333,9 +333,7 @@ void read_bodies(TomlTable& root, const fs::path& folder, Scene& scene) {
     std::vector<BodySpec> bodies{read_body(table, folder, scene, number++)};
     check_name(table, bodies[0].name);
     names.erase(bodies[0].name);
-    table.know("repeat");
-    if (table.has("repeat"))
-      for (TomlTable& entry : table.sections("repeat")) repeat(entry, bodies);
+    for (TomlTable& entry : table.sections("repeat")) repeat(entry, bodies);
     table.finish();
     add(table, std::move(bodies));
   }

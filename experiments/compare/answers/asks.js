@@ -1,9 +1,8 @@
-// The bar of the reader's choices: tolerance, start, families, sizes, backends, part of a case's
-// name. It stands before the tables; the choices stand in the address bar.
+// The bar of the reader's choices, before the tables. The address bar keeps the choices.
 
-function select_of(name, words, all, value) {
+function select_of(name, all, value) {
   const options = all.map((one) => element("option", { value: one, selected: one === value }, one));
-  return element("label", {}, words + " ", element("select", { name, onchange: (event) =>
+  return element("label", {}, name + " ", element("select", { name, onchange: (event) =>
     choice.set(name, event.target.value) }, ...options));
 }
 
@@ -24,8 +23,26 @@ function switches_of(name, words, all) {
 }
 
 function asks() {
-  const bar = element("section", { class: "asks", id: "asks", "aria-label": "What is shown" });
   const counts = element("p", { class: "note", "aria-live": "polite" });
+  const [least, most] = extent(all_contacts);
+  const save = (name, list) => download(name, [column_names, ...list.map((row) => row.cells)]
+    .map(csv_line).join("\n") + "\n");
+  const bar = element("section", { class: "asks", id: "asks", "aria-label": "What is shown" },
+    element("div", { class: "line" },
+      select_of("tolerance", all_tolerances, chosen.tolerance),
+      all_starts.length > 1 ? select_of("start", all_starts, chosen.start) : null,
+      field_of("from", "contacts from", "number", String(least)),
+      field_of("to", "to", "number", String(most)),
+      field_of("find", "case", "search", "part of a name")),
+    all_families.length > 1 ? switches_of("without_family", "families", all_families) : null,
+    switches_of("without", "backends", all_solvers), counts,
+    element("p", { class: "note" }, "The head of a column sorts its table, a name in a legend " +
+      "switches its curves, a time or a point opens its solve. The address keeps the choice."),
+    element("div", { class: "line" },
+      button("rows shown as CSV", () => save("chosen.csv", rows.filter((row) => chosen.has(row) &&
+        row.tolerance_text === chosen.tolerance && row.start === chosen.start))),
+      button("all rows as CSV", () => save("results.csv", rows)),
+      button("reset", () => { location.replace("#all="); })));
   const refresh = ({ cases, solvers }) => {
     const all_cases = unique(rows.map((row) => row.case));
     counts.textContent = `${cases.length} of ${all_cases.length} cases, ` +
@@ -36,25 +53,5 @@ function asks() {
       if (field !== document.activeElement) field.value = choice.get(field.name);
     bar.querySelectorAll("select").forEach((field) => { field.value = chosen[field.name]; });
   };
-  const [least, most] = extent(all_contacts);
-  const line = element("div", { class: "line" },
-    select_of("tolerance", "tolerance", all_tolerances, chosen.tolerance),
-    all_starts.length > 1 ? select_of("start", "start", all_starts, chosen.start) : null,
-    field_of("from", "contacts from", "number", String(least)),
-    field_of("to", "to", "number", String(most)),
-    field_of("find", "case", "search", "part of a name"));
-  bar.append(line);
-  if (all_families.length > 1) bar.append(switches_of("without_family", "families", all_families));
-  bar.append(switches_of("without", "backends", all_solvers), counts);
-  const hint = "The head of a column sorts its table, a name in a legend switches its curves, a " +
-    "time or a point opens its solve. The address keeps the choice.";
-  bar.append(element("p", { class: "note" }, hint));
-  const save = (name, list) => download(name, [column_names, ...list.map((row) => row.cells)]
-    .map(csv_line).join("\n") + "\n");
-  bar.append(element("div", { class: "line" },
-    button("rows shown as CSV", () => save("chosen.csv", rows.filter((row) => chosen.has(row) &&
-      row.tolerance_text === chosen.tolerance && row.start === chosen.start))),
-    button("all rows as CSV", () => save("results.csv", rows)),
-    button("reset", () => { location.replace("#all="); })));
   return { element: bar, refresh };
 }

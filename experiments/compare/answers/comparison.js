@@ -2,8 +2,7 @@
 // in the place of its tables and figures for every tolerance and start.
 
 const sections = [["backends", backends_view], ["matrix", matrix_view], ["profiles", profiles_view],
-                  ["families", family_view], ["cost", cost_view],
-                  ["case-figures", case_view]];
+                  ["families", family_view], ["cost", cost_view], ["case-figures", case_view]];
 
 /// Adds the holder of a section's live parts; tables that the program wrote stay for print.
 function holder_of(id) {
@@ -27,9 +26,8 @@ function filter_failures() {
   }
 }
 
-const bar = asks(), holders = new Map();
+const bar = asks(), holders = new Map(sections.map(([id]) => [id, holder_of(id)]));
 document.querySelector("#backends").before(bar.element);
-for (const [id] of sections) holders.set(id, holder_of(id));
 
 /// With many rows, waits until a section is painted before the next one is made.
 const painted = () => rows.length > 10000 &&

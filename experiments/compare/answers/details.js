@@ -16,8 +16,7 @@ const command_line = (command) =>
   element("div", { class: "line command" }, element("pre", { tabindex: 0 }, command),
           button("copy", (event) => copy(command, event.currentTarget)));
 
-/// The command that shows where in the packing the answer is wrong; a note where the bodies are not
-/// known.
+/// The command that shows where in the packing the answer is wrong; a note without bodies.
 function view_of(row) {
   if (!row.can_view)
     return [element("p", { class: "note" },
@@ -32,8 +31,7 @@ function view_of(row) {
 function history_chart(row) {
   const history = history_curve(row);
   if (history.points.length < 2) return null;
-  return chart_of({ title: "History", x: seconds_axis, y: error_axis, curves: [history],
-                    lines: tolerance_lines([row]) }, { told: told_history, hidden: "none" });
+  return error_chart("History", [row], [history], { hidden: "none" });
 }
 
 const details = { element: element("dialog", { "aria-label": "One solve", class: "details" }),

@@ -9,26 +9,23 @@ const column_names = Object.keys(page_data.columns);
 class Row {
   constructor(place) { this.place = place; }
   get is_solved() { return this.verdict === "solved"; }
-  get is_denied() { return this.verdict === "denied"; }
   /// The row's cells as in results.csv.
   get cells() { return column_names.map((name) => this[name + "_text"]); }
 }
 
 const cells_of_text = (text) => text.split("\n").slice(0, -1);
 
-/// Gives rows the cells of `text` as row[name + "_text"], and `read` of them as row[name].
-function add_column(name, text, read) {
+/// Rows have the cells of a column as row[name + "_text"], and their values as row[name].
+for (const [name, text] of Object.entries({ ...page_data.columns, ...page_data.more })) {
   let texts = null, values = null;
   const get_texts = () => (texts ??= cells_of_text(text));
-  const get_value = () => (values ??= read ? get_texts().map(read) : get_texts());
+  const get_values = () =>
+    (values ??= counted.includes(name) ? get_texts().map(Number) : get_texts());
   Object.defineProperties(Row.prototype, {
     [name + "_text"]: { get() { return get_texts()[this.place]; } },
-    [name]: { get() { return get_value()[this.place]; } },
+    [name]: { get() { return get_values()[this.place]; } },
   });
 }
-for (const name of column_names)
-  add_column(name, page_data.columns[name], counted.includes(name) ? Number : null);
-for (const name of Object.keys(page_data.more)) add_column(name, page_data.more[name]);
 
 const rows = cells_of_text(page_data.columns.case).map((_, place) => new Row(place));
 
@@ -40,7 +37,8 @@ const all_tolerances = unique(rows.map((row) => row.tolerance_text))
   .sort((a, b) => Number(b) - Number(a));
 const all_contacts = rows.map((row) => row.contacts);
 
-const style_of = (solver) => curve_style(all_solvers.indexOf(solver));
+/// The title and the style of a backend's curves.
+const style_of = (solver) => ({ title: solver, ...curve_style(all_solvers.indexOf(solver)) });
 
 /// The reader's choices. Values that no row has, in an address typed by hand, are ignored.
 const chosen = {
@@ -59,9 +57,9 @@ const chosen = {
 
 /// Why a row is not solved, in a few words.
 function reason_of(row) {
-  if (row.is_denied) return "denied";
-  const words = { crashed: "crashed", out_of_memory: "memory", unsupported: "not taken",
-                  no_solution: "no solution", timeout: row.reason ? "time limit" : "killed" };
+  const words = { denied: "denied", crashed: "crashed", out_of_memory: "memory",
+                  unsupported: "not taken", no_solution: "no solution",
+                  timeout: row.reason ? "time limit" : "killed" };
   return words[row.verdict] ?? (row.reason || "failed").replaceAll("_", " ");
 }
 

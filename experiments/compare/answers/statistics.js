@@ -1,21 +1,17 @@
-// Medians, means and profiles of a selection of rows. The medians and means are defined as in
-// compare_page.cpp, which computes those of all cases.
+// Medians, means (those of all cases are from compare_page.cpp) and profiles of a selection.
 
 /// One case by one backend, over its repeats. Times are infinite where it isn't solved.
 function cell_of(repeats) {
-  if (!repeats.length) return { row: null, solved: false, median: Infinity, spread: 0 };
-  const solved = repeats.every((row) => row.is_solved);
-  const best = repeats.filter((row) => row.is_solved).sort((a, b) => a.seconds - b.seconds)[0];
-  const cell = { row: best ?? repeats[0], solved, median: Infinity, spread: 0 };
-  if (!solved) return cell;
-  const times = repeats.map((row) => row.seconds).sort((a, b) => a - b), n = times.length;
-  cell.median = n % 2 ? times[(n - 1) / 2] : 0.5 * (times[n / 2 - 1] + times[n / 2]);
-  cell.spread = cell.median > 0 ? (times[n - 1] - times[0]) / cell.median : 0;
-  return cell;
+  const best = repeats.filter((row) => row.is_solved).sort((a, b) => a.seconds - b.seconds);
+  const row = best[0] ?? repeats[0] ?? null, n = best.length;
+  if (!n || n < repeats.length) return { row, solved: false, median: Infinity, spread: 0 };
+  const times = best.map((one) => one.seconds);
+  const median = n % 2 ? times[(n - 1) / 2] : 0.5 * (times[n / 2 - 1] + times[n / 2]);
+  const spread = median > 0 ? (times[n - 1] - times[0]) / median : 0;
+  return { row, solved: true, median, spread };
 }
 
-/// The chosen rows of the chosen tolerance and start as {solvers, cases: [{name, row, cells,
-/// fastest}]}.
+/// The rows of all choices as {solvers, cases: [{name, row, cells, fastest}]}.
 function selection() {
   const mine = rows.filter((row) => chosen.has(row) && row.start === chosen.start &&
                                     row.tolerance_text === chosen.tolerance);
@@ -38,16 +34,15 @@ const shifted_ratio = (times, best) =>
 function summaries({ solvers, cases }) {
   const lines = solvers.map((solver, s) => {
     const tried = cases.filter((c) => c.cells[s].row), cells = tried.map((c) => c.cells[s]);
-    const count = (test) => cells.filter((cell) => test(cell.row)).length;
-    const of = (verdicts) => count((row) => verdicts.includes(row.verdict));
+    const of = (...verdicts) => cells.filter(({ row }) => verdicts.includes(row.verdict)).length;
     const times = cells.map((cell) => Math.min(cell.median, page_data.limit));
     const beaten = tried.map((c, k) => k).filter((k) => Number.isFinite(tried[k].fastest));
     const solved = cells.filter((cell) => cell.solved).length;
     return {
       solver, law: cells[0]?.row.law ?? "", solved, unsolved: cells.length - solved,
-      timeouts: of(["timeout"]), crashes: of(["crashed", "out_of_memory"]),
-      unsupported: of(["unsupported"]), no_solutions: of(["no_solution"]),
-      denied: count((row) => row.is_denied), mean: shifted_mean(times),
+      timeouts: of("timeout"), crashes: of("crashed", "out_of_memory"),
+      unsupported: of("unsupported"), no_solutions: of("no_solution"), denied: of("denied"),
+      mean: shifted_mean(times),
       ratio: beaten.length ? shifted_ratio(beaten.map((k) => times[k]),
                                            beaten.map((k) => tried[k].fastest)) : NaN,
       spread: Math.max(0, ...cells.map((cell) => cell.spread)),
@@ -56,8 +51,7 @@ function summaries({ solvers, cases }) {
   return lines.sort((a, b) => b.solved - a.solved || a.mean - b.mean);
 }
 
-/// The fraction of cases with a value up to x, as steps from `first` to `last`; a step's point has
-/// the row of its case.
+/// The fraction of cases with a value up to x: steps from `first` to `last`, each with its row.
 function counted_steps(values, cases, first, last) {
   const order = values.map((value, k) => k).sort((a, b) => values[a] - values[b]);
   const points = [{ x: first, y: 0 }];

@@ -33,16 +33,14 @@ function matrix_view({ solvers, cases }) {
 }
 
 const seconds_axis = { label: "time&nbsp; (s)", log: true };
-const error_axis = { label: "error, relative", log: true };
 const open_row = ({ row }) => { if (row) choice.set("row", row.key); };
 const told_row = (row) => [row.case, row.is_solved ? time_words(row.seconds) : reason_of(row),
                            "error " + number(row.error, 2)].join("; ");
 
-function profile_chart(selected, title, label, { first, last, curves }) {
+function profile_chart({ solvers }, title, label, { first, last, curves }) {
   const figure = { title, x: { label, log: true, min: first, max: last },
     y: { label: "fraction of cases solved", min: 0, max: 1 },
-    curves: selected.solvers.map((solver, s) => ({ title: solver, ...style_of(solver),
-      stepped: true, points: curves[s] })) };
+    curves: solvers.map((name, s) => ({ ...style_of(name), stepped: true, points: curves[s] })) };
   return chart_of(figure, { opened: open_row, told: (curve, { x, y, row }) =>
     `${curve.title}; ${number(100 * y)} % within ${number(x)}; ${row ? told_row(row) : ""}` });
 }
@@ -64,14 +62,13 @@ function profiles_view(selected) {
   ];
 }
 
-/// The words above a chart.
 const caption = (title, words) => element("p", {}, element("b", {}, title), " " + words);
 
 /// A choice of one of `all` beside a chart.
-function chooser(name, words, all) {
-  const value = all.includes(choice.get(name)) ? choice.get(name) : all[0];
+function chooser(name, all) {
+  const value = chosen.one(name, all);
   if (all.length < 2) return [value, null];
-  return [value, element("p", { class: "line" }, select_of(name, words, all, value))];
+  return [value, element("p", { class: "line" }, select_of(name, all, value))];
 }
 
 const cost_axes = {
@@ -81,14 +78,13 @@ const cost_axes = {
 };
 
 function cost_view({ solvers, cases }) {
-  const [name, chooser_line] = chooser("against", "against", Object.keys(cost_axes));
+  const [name, chooser_line] = chooser("against", Object.keys(cost_axes));
   const x = cost_axes[name], key = name.replace(" ", "_");
   const points_of = (s) => cases.filter((c) => c.cells[s].solved && (!x.log || c.row[key] > 0))
     .map((c) => ({ x: c.row[key], y: c.cells[s].median, row: c.cells[s].row }))
     .filter((point) => Number.isFinite(point.x) && point.y > 0).sort((a, b) => a.x - b.x);
   const figure = { title: "Cost against " + name, x, y: seconds_axis,
-    curves: solvers.map((solver, s) => ({ title: solver, ...style_of(solver), mark: "points",
-      points: points_of(s) })) };
+    curves: solvers.map((one, s) => ({ ...style_of(one), mark: "points", points: points_of(s) })) };
   const words = "Time of prepare and solve; only what was solved is drawn. A point opens its " +
     "solve.";
   const told = (curve, point) =>

@@ -9,6 +9,17 @@
 
 const charts = new Set();
 
+// Inks are variables of the page's style sheet, which follow the reader's light or dark ground.
+const inks = ["blue", "vermilion", "green", "orange", "purple", "sky", "ink", "grey"];
+const dashes = [[], [8, 5], [4, 3], [1.5, 3]];
+
+const variable = (name) =>
+  getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+
+/// The k-th backend's style: eight colours, then the same, dashed (backend_curve of live_page.cpp).
+const curve_style = (k) => ({ ink: inks[k % inks.length],
+                              dash: Math.floor(k / inks.length) % dashes.length });
+
 const axis_of = (axis) => ({
   type: axis.log ? "logarithmic" : "linear",
   min: axis.min,
@@ -104,8 +115,7 @@ function line_of(line, chart_points) {
   return {
     label: "", is_line: true, line, showLine: true,
     pointRadius: 0, pointHitRadius: 0, pointHoverRadius: 0,
-    data: extent(places).map((place) => (
-      { [along]: place, [across]: line.value })),
+    data: extent(places).map((place) => ({ [along]: place, [across]: line.value })),
     borderColor: variable("grey"), borderWidth: 1.2, borderDash: [3, 4],
   };
 }
@@ -189,15 +199,14 @@ function chart_of(figure, { told, opened = null, hidden = "hidden" }) {
     chart = new Chart(canvas, { type: "line", data: { datasets: sets }, options: options(),
                                 plugins: [extents, line_words] });
   };
-  const keys = key_walk(figure, is_shown, (at) => {
+  canvas.addEventListener("keydown", key_walk(figure, is_shown, (at) => {
     const found = point_of(at);
     chart.setActiveElements([at]);
     const { x, y } = chart.getDatasetMeta(at.datasetIndex).data[at.index];
     chart.tooltip.setActiveElements([at], { x, y });
     chart.update("none");
     say(told(found.curve, found.point));
-  }, (at) => opened?.(point_of(at).point));
-  canvas.addEventListener("keydown", keys);
+  }, (at) => opened?.(point_of(at).point)));
   const legend = legend_of(figure, is_shown, hidden);
   const holder = element("div", { class: "chart" }, legend,
     element("div", { class: "axis" }), element("div", { class: "ground" }, canvas),

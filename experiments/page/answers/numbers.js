@@ -52,6 +52,5 @@ function extent(values) {
   return [low, high];
 }
 
-/// One line of a CSV file.
 const csv_line = (cells) =>
   cells.map((cell) => (/[",\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell)).join(",");

@@ -3,13 +3,10 @@
 
 const part = (id) => document.getElementById("replay-" + id);
 
-async function partBytes(name) {
-  const holder = part(name), bytes = holder ? await unpacked(holder) : new Blob();
-  return new Uint8Array(await bytes.arrayBuffer());
-}
-
-// Numbers of a typed array's kind, from bytes in the order: all first bytes, all second ones, ...
-function numbersOf(bytes, Type) {
+// The numbers of a part, as a typed array; its bytes are all first ones, then all second ones, ...
+async function numbersOf(name, Type) {
+  const holder = part(name), packed = holder ? await unpacked(holder) : new Blob();
+  const bytes = new Uint8Array(await packed.arrayBuffer());
   const size = Type.BYTES_PER_ELEMENT, count = bytes.length / size;
   const whole = new Uint8Array(bytes.length);
   for (let b = 0; b < size; ++b)
@@ -50,10 +47,9 @@ class Data {
     const kinds = { shapes: Uint16Array, grains: Float32Array, positions: Uint16Array,
       rotations: Uint16Array, velocities: Uint8Array, laps: Int16Array, walls: Float32Array,
       series: Float32Array, contact_bodies: Int32Array, contact_places: Uint8Array,
-      contact_forces: Uint16Array, contact_mobilised: Uint8Array, errors: Uint8Array }, parts = {};
-    await Promise.all(Object.entries(kinds).map(async ([name, kind]) => {
-      parts[name] = numbersOf(await partBytes(name), kind);
-    }));
+      contact_forces: Uint16Array, contact_mobilised: Uint8Array, errors: Uint8Array };
+    const parts = Object.fromEntries(await Promise.all(Object.entries(kinds).map(
+      async ([name, kind]) => [name, await numbersOf(name, kind)])));
     return new Data(JSON.parse(part("head").textContent), parts);
   }
 
@@ -62,7 +58,7 @@ class Data {
     this.grains = head.grains;
     this.times = head.times;
     this.begin = head.times[0];
-    this.end = head.times[head.times.length - 1];
+    this.end = head.times.at(-1);
     const columns = 3 * head.grains;
     this.positions = historyOf(parts.positions, columns, 2);
     this.rotations = historyOf(parts.rotations, 4 * head.grains, 2);
@@ -95,11 +91,8 @@ class Data {
   readSeries(values) {
     const rows = this.head.rows;
     this.seriesTime = values.subarray(0, rows);
-    this.series = {};
-    this.head.series.forEach((series, k) => {
-      const own = values.subarray((k + 1) * rows, (k + 2) * rows);
-      this.series[series.name] = { ...series, values: own };
-    });
+    this.series = Object.fromEntries(this.head.series.map((series, k) => [series.name,
+      { ...series, values: values.subarray((k + 1) * rows, (k + 2) * rows) }]));
   }
 
   readContacts(parts) {
@@ -127,11 +120,10 @@ class Data {
       mobilised: parts.contact_mobilised };
   }
 
-  // The centre of a grain in the state.
+  // The centre of a grain, and the place of a contact, in the state: it moves with its grain a.
   centreOf(grain) {
     return Array.from(this.state.subarray(8 * grain, 8 * grain + 3));
   }
-  // The position of a contact, which moves with the centre of its grain a in the state.
   contactPlace(c) {
     const { a, places, count } = this.contact, g = a[c], reach = 1.02 * this.reach[g] / 127;
     return [0, 1, 2].map((k) => this.state[8 * g + k] + (places[k * count + c] - 128) * reach);

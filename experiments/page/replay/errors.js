@@ -1,8 +1,6 @@
 // The error in space: every contact of a captured problem is coloured by the error of an answer
 // there. Each of two backends has a picture; they share the camera and the budget of iterations.
 
-const errorDecades = [-6, 0];  // the decades of the error over g h that the colours span
-
 class ErrorView {
   constructor(data) {
     this.data = data;
@@ -19,16 +17,15 @@ class ErrorView {
     const at = (this.shown[picture] * budgets + this.budget) * contacts + c;
     return this.data.errors[at] / 255 * 11 - 9;
   }
-  share(picture, c) {
-    return (this.errorOf(picture, c) - errorDecades[0]) / (errorDecades[1] - errorDecades[0]);
-  }
 
   // Adds balls at the contacts of a picture, the worst contact on a needle.
   addBalls(rods, picture, marks, cut) {
     const size = marks.meanReach;
     for (let c = 0; c < this.data.contact.count; ++c) {
-      const place = this.data.contactPlace(c), share = clamp(this.share(picture, c), 0, 1);
+      const place = this.data.contactPlace(c);
       if (cut && dot(cut, place) > cut[3]) continue;
+      // the colours span errors over g h from 1e-6 to 1
+      const share = clamp((this.errorOf(picture, c) + 6) / 6, 0, 1);
       const radius = size * (0.06 + 0.28 * share * share);
       addRod(rods, place, radius, place, radius, colourAt(markRamps.heat, share));
       if (c !== this.worst) continue;
@@ -37,7 +34,6 @@ class ErrorView {
     }
   }
 
-  // The contact with the largest error of the picture's answer.
   findWorst(picture) {
     let worst = 0;
     for (let c = 1; c < this.data.contact.count; ++c)
@@ -45,15 +41,16 @@ class ErrorView {
     return worst;
   }
 
-  // Takes over the choices in the page's address: #left=pgs&right=auto&budget=100
+  // Takes over the choices in the page's address, #left=pgs&right=auto&budget=100, and the first
+  // choice for each that it lacks.
   read() {
     const { iterations } = this.solves[0], last = this.solves.length - 1;
-    const asked = ["left", "right"].map((side) =>
-      this.solves.findIndex((solve) => solve.backend === choice.get(side)));
-    if (asked[0] >= 0) this.shown = [asked[0], asked[0] === last ? 0 : last];
-    if (asked[1] >= 0) this.shown[1] = asked[1];
-    const within = iterations.filter((budget) => budget <= +choice.get("budget")).length;
-    if (within) this.budget = within - 1;
+    this.shown = ["left", "right"].map((side, k) => {
+      const asked = this.solves.findIndex((solve) => solve.backend === choice.get(side));
+      return asked < 0 ? Math.min(k, last) : asked;
+    });
+    const budget = +choice.get("budget", iterations[iterations.length >> 1]);
+    this.budget = Math.max(0, iterations.findLastIndex((one) => one <= budget));
     ["left", "right"].forEach((side, k) => {
       if (part(side)) part(side).value = this.shown[k];
     });
@@ -117,9 +114,8 @@ class ErrorView {
   }
 
   drawLegend() {
-    const [low, high] = errorDecades, legend = part("legend");
-    const ticks = [low, low + 2, low + 4, high].map((decade) =>
-      [(decade - low) / (high - low), decade ? "1e\u2212" + -decade : "1"]);
+    const legend = part("legend");
+    const ticks = [[0, "1e\u22126"], [1 / 3, "1e\u22124"], [2 / 3, "1e\u22122"], [1, "1"]];
     legend.hidden = false;
     legend.replaceChildren(...rampLegend("error over g h", cssGradient(markRamps.heat), ticks));
   }

@@ -6,7 +6,7 @@ function listenToPointer(canvas, replay) {
   const { camera } = replay, fingers = new Map();
   let travel = 0;
   const spread = () => {
-    const [a, b] = [...fingers.values()];
+    const [a, b = a] = [...fingers.values()];
     return Math.hypot(a[0] - b[0], a[1] - b[1]);
   };
   canvas.addEventListener("pointerdown", (event) => {
@@ -19,9 +19,9 @@ function listenToPointer(canvas, replay) {
     if (!from) return;
     const dx = event.clientX - from[0], dy = event.clientY - from[1], high = canvas.clientHeight;
     travel += Math.abs(dx) + Math.abs(dy);
+    const before = spread();
+    fingers.set(event.pointerId, [event.clientX, event.clientY]);
     if (fingers.size === 2) {
-      const before = spread();
-      fingers.set(event.pointerId, [event.clientX, event.clientY]);
       camera.zoom(clamp(before / Math.max(spread(), 8), 0.8, 1.25));
       camera.pan(dx / 2 / high, dy / 2 / high);
     } else if (event.shiftKey || event.buttons & 6) {
@@ -29,7 +29,6 @@ function listenToPointer(canvas, replay) {
     } else {
       camera.turn(0.4 * dx, 0.4 * dy);
     }
-    fingers.set(event.pointerId, [event.clientX, event.clientY]);
     if (travel > 3) replay.touched();
   });
   const released = (event) => {

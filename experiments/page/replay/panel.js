@@ -18,9 +18,8 @@ const tick = (id, words, turned) => element("label", {},
 function buildPanel(replay) {
   const { data, camera } = replay, moves = data.times.length > 1;
   const hasContacts = data.contactFrames.length > 0;
-  const names = { speed: "speed", displacement: "displacement", rotation: "rotation",
-    force: "force carried", size: "size class", none: "none" };
-  const colours = Object.keys(replay.shades.choices).map((name) => [name, names[name]]);
+  const titles = { force: "force carried", size: "size class" };
+  const colours = Object.keys(replay.shades.choices).map((name) => [name, titles[name] ?? name]);
   // where chains or points are shown, grains are drawn as glass
   const marked = (name, other) => (on) => replay.set({ [name]: on,
     grains: on || replay.options[other] ? "ghost" : "solid" });
@@ -49,7 +48,7 @@ function buildPanel(replay) {
         replay.touched();
       })),
     element("div", { class: "controls" },
-      selection("colour", "colour", colours, moves ? "speed" : "size",
+      selection("colour", "colour", colours, replay.options.colour,
         (colour) => replay.set({ colour })),
       selection("grains", "grains", [["solid", "solid"], ["ghost", "as glass"],
         ["hidden", "hidden"]], "solid", (grains) => replay.set({ grains })),
@@ -113,7 +112,6 @@ function drawLegend(shades, { colour, chains, points }, marks) {
   legend.replaceChildren(...parts);
 }
 
-// Shows the facts about a picked grain.
 function drawFacts(data, picked, time) {
   const facts = part("facts");
   facts.hidden = picked < 0;

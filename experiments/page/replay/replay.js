@@ -9,11 +9,10 @@ class Replay {
     this.time = data.begin;
     this.rate = 0.2;
     this.playing = this.moving = false;
-    this.options = { colour: "speed", grains: "solid", chains: false, points: false, threshold: 1,
-      cut: "", cutAt: 0.5, picked: -1 };
+    this.options = { colour: data.times.length > 1 ? "speed" : "size", grains: "solid",
+      chains: false, points: false, threshold: 1, cut: "", cutAt: 0.5, picked: -1 };
     this.quality = 1;
     buildPanel(this);
-    this.options.colour = part("colour").value;
     this.mesh = new Mesh(data);
     this.errors = new ErrorView(data);
     if (this.errors.isOn) Object.assign(this.options, { colour: "none", grains: "ghost" });
@@ -36,6 +35,9 @@ class Replay {
     for (const { canvas } of this.stages) {
       listenToPointer(canvas, this);
       listenToKeys(canvas, this);
+      // the context of the graphics card may be lost and restored: then the page is loaded again
+      canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+      canvas.addEventListener("webglcontextrestored", () => location.reload());
     }
     this.set({});
     new ResizeObserver(() => {
@@ -50,11 +52,6 @@ class Replay {
     this.isSeen = true;
     new IntersectionObserver(([entry]) => { this.isSeen = entry.isIntersecting; }).observe(
       part("stage"));
-    // the context of the graphics card may be lost and restored: then the page is loaded again
-    for (const { canvas } of this.stages) {
-      canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
-      canvas.addEventListener("webglcontextrestored", () => location.reload());
-    }
   }
 
   readStyle() {
@@ -144,7 +141,6 @@ class Replay {
     return words;
   }
 
-  // Takes over the choices in the address.
   readAddress() {
     const { camera, data, defaults } = this;
     for (const [name, value] of Object.entries(defaults)) {
@@ -154,12 +150,12 @@ class Replay {
     }
     camera.home();
     const view = choice.get("view"), numbers = view.split(",").map(Number);
-    if (numbers.length === 6)
+    if (numbers.length === 6 && numbers.every(Number.isFinite))
       [camera.yaw, camera.pitch, camera.distance, ...camera.target] = numbers;
     else camera.along(view);
-    part("rate").value = this.rate = +choice.get("rate", this.first.rate);
+    part("rate").value = this.rate = +choice.get("rate") || +this.first.rate;
     if (this.errors.isOn) this.errors.read();
-    this.time = clamp(+choice.get("t", data.begin), data.begin, data.end);
+    this.time = clamp(+choice.get("t", data.begin) || data.begin, data.begin, data.end);
     this.setPlaying(!this.isCalm && choice.get("play") !== "0");
   }
 

@@ -15,29 +15,29 @@ class Shades {
   constructor(data) {
     this.data = data;
     const { head } = data, last = data.times.length - 1;
-    // tops of the scales: nearly all grains at nearly all times lie below. Many are only sampled.
-    const speeds = [], moves = [], turns = [], every = Math.max(1, Math.floor(head.grains / 5000));
-    for (let f = 0; f <= last; f += Math.max(1, Math.floor(last / 20)))
-      for (let g = 0; g < head.grains; g += every) {
-        speeds.push(this.speed(g, f));
-        moves.push(this.moved(g, f));
-        turns.push(this.turnedBy(g, f));
-      }
+    // the top of a scale: nearly all grains at nearly all times lie below. Many are only sampled.
+    const topOf = (of) => {
+      const values = [], every = Math.max(1, Math.floor(head.grains / 5000));
+      for (let f = 0; f <= last; f += Math.max(1, Math.floor(last / 20)))
+        for (let g = 0; g < head.grains; g += every) values.push(of(g, f));
+      return quantile(values, 0.999) || 1;
+    };
+    const changing = (of) =>
+      ({ top: topOf(of), value: (g, f, n, u) => of(g, f) * (1 - u) + of(g, n) * u });
+    const sums = sampled(data.contactFrames, 12).flatMap((frame) => [...this.forcesIn(frame)]);
     const smallest = data.size.reduce((a, b) => Math.min(a, b), Infinity);
     const largest = data.size.reduce((a, b) => Math.max(a, b), 0);
-    const top = (values) => quantile(values, 0.999) || 1;
     const root = { share: (v, most) => Math.sqrt(v / most), ramp: "heat" };
     const even = { share: (v, most) => v / most, ramp: "heat" };
-    const between = (of) => (g, f, n, u) => of(g, f) * (1 - u) + of(g, n) * u;
     this.choices = {
-      speed: { words: "speed", unit: "m/s", factor: 1, top: top(speeds), ...root,
-        value: between((g, f) => this.speed(g, f)) },
+      speed: { words: "speed", unit: "m/s", factor: 1, ...root,
+        ...changing((g, f) => this.speed(g, f)) },
       displacement: { words: "displacement since the start", unit: "mm", factor: 1e3,
-        top: top(moves), ...even, value: between((g, f) => this.moved(g, f)) },
+        ...even, ...changing((g, f) => this.moved(g, f)) },
       rotation: { words: "rotation since the start", unit: "\u00b0", factor: 180 / Math.PI,
-        top: top(turns), ...even, value: between((g, f) => this.turnedBy(g, f)) },
-      force: { words: "force carried", unit: "N", factor: 1, top: 1, ...root,
-        value: (g) => this.carried ? this.carried[g] : 0 },
+        ...even, ...changing((g, f) => this.turnedBy(g, f)) },
+      force: { words: "force carried", unit: "N", factor: 1, ...root,
+        top: quantile(sums, 0.995) || 1, value: (g) => this.carried ? this.carried[g] : 0 },
       size: { words: "size class: diameter of the sphere of equal volume", unit: "mm",
         factor: 1e3, top: largest, bottom: smallest, ramp: "water",
         share: (v) => largest > smallest ?
@@ -45,9 +45,7 @@ class Shades {
         value: (g) => data.size[g] },
       none: { words: "", ramp: "stone", top: 1, share: (v) => v, value: (g) => (g * 0.618034) % 1 },
     };
-    const sums = sampled(data.contactFrames, 12).flatMap((frame) => [...this.forcesIn(frame)]);
     if (!data.contactFrames.length) delete this.choices.force;
-    else this.choices.force.top = quantile(sums, 0.995) || 1;
   }
 
   speed(g, f) {

@@ -4,7 +4,7 @@ const slots = { states: 0, ramp: 1, shadow: 2, rods: 3 };  // texture units
 const shadowSize = 2048, numberSize = 512;
 
 // The light: the sun, which casts shadows, and the sky from all sides.
-const light = { to: unit([0.42, -0.5, 0.76]), colour: [0.80, 0.77, 0.71],
+const light = { sun: unit([0.42, -0.5, 0.76]), sunColour: [0.80, 0.77, 0.71],
   around: [0.404, 0.426, 0.456] };
 
 class Stage {
@@ -102,7 +102,7 @@ class Stage {
     const reach = 1.02 * this.data.radius, { centre } = this.data;
     this.shadowLens = 0.5 * shadowSize / reach;
     this.shadowMatrix = product(orthographic(reach, 0, 4 * reach),
-      looking(add(centre, times(light.to, 2 * reach)), centre));
+      looking(add(centre, times(light.sun, 2 * reach)), centre));
     this.rodRows = this.rods = 0;
     // for picking: the numbers of grains, without smoothing, which would mix them
     this.numberTarget = gl.createFramebuffer();
@@ -143,10 +143,8 @@ class Stage {
   // Uses a program for lit surfaces, seen by a look's camera; returns its uniforms.
   lit(name, look, switches) {
     const gl = this.gl, at = this.use(name, ...look.cut ? ["CUT"] : [], ...switches);
-    gl.uniform3fv(at.sun, light.to);
-    gl.uniform3fv(at.sunColour, light.colour);
-    gl.uniform3fv(at.around, light.around);
-    gl.uniform3fv(at.eye, look.camera.eye);
+    for (const [name, value] of Object.entries({ ...light, eye: look.camera.eye }))
+      gl.uniform3fv(at[name], value);
     gl.uniformMatrix4fv(at.shadowMatrix, false, this.shadowMatrix);
     gl.uniformMatrix4fv(at.camera, false, look.camera.matrix(this.aspect));
     if (at.cut) gl.uniform4fv(at.cut, look.cut);
@@ -230,7 +228,6 @@ class Stage {
     gl.depthMask(true);
   }
 
-  // Draws the rods, two triangles each.
   drawRods({ camera }) {
     if (!this.rods) return;
     const { gl, canvas: { width, height } } = this, at = this.use("rod");

@@ -152,6 +152,8 @@ TEST_CASE("a page of results that cannot be measured says why") {
                 {"page.md: does not begin with its stages"});
   check_failure(complaint("<!--\nlist solvers\n-->\n"), ExitCode::failure,
                 {"'list solvers'", "expected NAME xTURNS: WORDS"});
+  check_failure(complaint("<!--\nlist '': solvers\n-->\n"), ExitCode::failure,
+                {"list ''", "expected NAME xTURNS: WORDS"});
   check_failure(complaint("<!--\n-->\n"), ExitCode::failure, {"has no stages"});
   check_failure(complaint("<!--\n../list x1: solvers\n-->\n"), ExitCode::failure, {"'../list x1"});
   check_failure(complaint("<!--\nlist x1: solvers --nothing\n-->\n"), ExitCode::failure,

@@ -80,6 +80,8 @@ TEST_CASE("What is wrong with a list is said with file, family and key") {
   complains(cube + steps + "part = \"huge\"\n", "one of \"small\", \"large\"");
   complains(cube + steps + "vary = [\"a=1\"]\n", "expected lists of texts");
   complains(cube + steps + "vary = [[\"a\"]]\n", "expected lists of texts");
+  complains(cube + steps + "vary = [[\"a.key = 1\"]]\n", "expected lists of texts");
+  complains(cube + steps + "vary = [[\" a.key=1\"]]\n", "expected lists of texts");
   complains(cube + steps + "vary = [[\"wall.7.friction=1\"]]\n", "family cube");
   complains(cube + steps + "vary = [[\"body.0.mass=1\", \"body.0.mass=1\"]]\n", "stands twice");
   complains(cube + steps + "color = 1\n", "color");

@@ -121,7 +121,7 @@ TEST_CASE("Times are medians over repeats, and solved is what every repeat solve
   const std::vector<CompareTable> tables = compare_tables(rows);
   REQUIRE(tables.size() == 1);
   CHECK(tables[0].heading == "Tolerance 0.0001, cold start");
-  CHECK(tables[0].cases == 1);
+  CHECK(tables[0].cases.size() == 1);
   REQUIRE(tables[0].backends.size() == 2);
   const BackendSummary &a = tables[0].backends[0], &b = tables[0].backends[1];
   CHECK(a.solver == "a");

@@ -247,7 +247,7 @@ TEST_CASE("a lone vertex: no other vertex and no edge of its body comes near the
     for (int f = 0; f < other.faces().count(); ++f) {
       const auto corners =
           clipper.clip(pair, reference, face_table(*pair.shape[reference], face).view(),
-                       face_table(other, f).corners, clipping_thickness(c.size()));
+                       face_table(other, f).corners);
       set_heights(corners, pair.shape[reference]->face(face));
       for (const ClippedPoint& p : corners)
         others += p.key != vertex_key(1 - reference, axis->support) && p.height <= reach;

@@ -94,7 +94,7 @@ TEST_CASE("clipping finds the corners that the definition names, under the same 
     const auto expected = clipped_by_definition(pair, reference, face, incident, clear);
     if (!clear) continue;
     const auto found = clipper.clip(pair, reference, face_table(own, face).view(),
-                                    face_table(other, incident).corners, 1e-9 * c.size());
+                                    face_table(other, incident).corners);
     ++compared;
     corners += static_cast<int>(found.size());
     empty += found.empty();
@@ -122,9 +122,8 @@ TEST_CASE("corners on a side stay corners: equal boxes") {
   Random random(5);
   for (double noise : {0.0, 1e-15, 1e-10}) {
     const Vec3 shift(noise * random.uniform(-1, 1), noise * random.uniform(-1, 1), 1.0);
-    const auto points =
-        clipper.clip(ShapePair(box, box, {Mat3::Identity(), shift}), 0, face_table(box, top).view(),
-                     face_table(box, bottom).corners, 1e-9);
+    const auto points = clipper.clip(ShapePair(box, box, {Mat3::Identity(), shift}), 0,
+                                     face_table(box, top).view(), face_table(box, bottom).corners);
     REQUIRE(points.size() == 4);
     for (const ClippedPoint& p : points) CHECK(p.key < 8);  // vertices of b
   }
