@@ -199,6 +199,14 @@ TEST_CASE("two backends' errors stand side by side, and the worst contact is fou
   const Json sharp =
       browser.js("ballastReplay.stages.map((s) => new Set(" + pixels_of("s") + ".bytes).size)");
   CHECK((sharp[0] > 20 && sharp[1] > 20));
+  // an address holds what is not as at first: both pictures show the second backend
+  browser.open(place.path() / "errors.html", "left=auto", is_ready);
+  CHECK(browser.js("ballastReplay.errors.shown") == Json{1, 1});
+  browser.js("location.hash = 'play=0'; new Promise((go) => setTimeout(go, 500))");
+  CHECK(browser.js("ballastReplay.errors.shown") == Json{0, 1});
+  browser.open(place.path() / "errors.html", "t=abc&rate=x&view=a,b,c,d,e,f&budget=z", is_ready);
+  CHECK(browser.js("[ballastReplay.time, ballastReplay.rate, ballastReplay.camera.distance]"
+                   ".every(Number.isFinite)") == true);
 }
 
 TEST_CASE("what is most wrong stands out from a light and a dark ground") {
