@@ -31,13 +31,10 @@ class Auto final : public Solver {
   }
 
   Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
-    if (start.isZero(0.0) && nothing_presses(problem)) {
-      Solved solved;
-      solved.impulses = std::move(start);
-      solved.reason = StopReason::reached_tolerance;
-      solved.start_error = solved.end_error = 0.0;
-      if (budget.keep_history) solved.history = {{0, 0.0, 0.0}};
-      return solved;
+    Course course(budget, std::move(start));
+    if (course.best().isZero(0.0) && nothing_presses(problem)) {
+      course.offer(course.best(), 0.0);
+      return course.finish();
     }
     const bool is_scarce = budget.max_iterations <= few_iterations;
     const double step = is_scarce ? 1.0
@@ -46,7 +43,6 @@ class Auto final : public Solver {
                             : stored_step(problem);
     LazySolver& newton = problem.has_dynamics && !is_scarce ? burst_ : proximal_;
 
-    Course course(budget, std::move(start));
     course.run(sweeps_.prepared(problem), problem, budget.max_iterations,
                sweep_stop_rule(step, 0.25 * budget.max_iterations, budget));
     int idle = 0;

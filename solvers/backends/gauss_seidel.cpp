@@ -60,8 +60,7 @@ class Momentum final : public SearchRule {
       begin_search(square);
       return {};
     }
-    const double beta = std::min(age_ / (age_ + 2.0), mean_factor(square));
-    return {.beta = beta};
+    return {.beta = std::min(age_ / (age_ + 2.0), mean_factor(square))};
   }
 
   /// Where a quarter more sweeps gained less than a tenth, momentum circles without end: plain
@@ -124,9 +123,7 @@ class FletcherReeves final : public SearchRule {
   /// The first sweep of a search is plain.
   SearchStep next(double square) override {
     if (begins_) last_ = 0.0;
-    const bool is_first = begins_ || !accelerates_;
-    begins_ = false;
-    if (is_first) return {.beta = 0.0, .is_conjugate = true};
+    if (std::exchange(begins_, false) || !accelerates_) return {.beta = 0.0, .is_conjugate = true};
     double beta = last_ > 0.0 ? square / last_ : 0.0;
     if (beta > 1.0) beta = 0.0;
     last_ = square;

@@ -213,12 +213,12 @@ class IpoptCone final : public Solver {
 
   /// Each of Ipopt's solves runs in a child process: Debian's Ipopt 3.11 with MUMPS does not
   /// survive a second one in the same process.
-  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+  Solved solve(const FrictionProblem&, Impulses start, const Budget& budget) override {
     const auto convex = [this](const ConeRequest& request, RoundAnswer& answer) {
       const auto run = [&](RoundAnswer& called) { return call(request, called); };
       answer_apart(request.left, run, answer);
     };
-    return cones_.solve(problem, std::move(start), budget, /*patience=*/12, convex);
+    return cones_.solve(std::move(start), budget, /*patience=*/12, convex);
   }
 
  private:

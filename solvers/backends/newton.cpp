@@ -54,13 +54,15 @@ class NewtonStep {
   bool newton(int halvings) {
     linear_.resize(w_.contact_count());
     for (int c = 0; c < w_.contact_count(); ++c) {
-      if (w_.rho()[c] > 0.0)
-        linear_[c] = linearise(equation_, w_.at(r_, c), proximal_velocity(r_, u_, c),
-                               w_.friction(c), rho_factor_ * w_.rho()[c]);
-      else  // no impulse moves it: dr = 0
+      if (!(w_.rho()[c] > 0.0)) {  // no impulse moves it: dr = 0
         linear_[c] = {};
+        continue;
+      }
+      linear_[c] = linearise(equation_, w_.at(r_, c), proximal_velocity(r_, u_, c), w_.friction(c),
+                             rho_factor_ * w_.rho()[c]);
+      linear_[c].df_dr += alpha_[c] * linear_[c].df_du;  // the proximal velocity moves with r
     }
-    if (!system_.solve(w_, linear_, alpha_, dr_)) return false;
+    if (!system_.solve(linear_, dr_)) return false;
     // Backtracking along the step; u moves with r, as both are linear.
     const double before = residual();
     w_.multiply(dr_, du_);

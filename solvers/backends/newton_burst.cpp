@@ -76,7 +76,7 @@ class RegularNewton {
   /// hundredfold where statuses change. False: the matrix is singular or the step not finite.
   bool step(NewtonIterate& change) {
     change.r = source_;
-    return system_.solve_springs(w_, gain_, change.r, change.u, /*enough=*/1e-10);
+    return system_.solve_springs(gain_, change.r, change.u, /*enough=*/1e-10);
   }
 
  private:

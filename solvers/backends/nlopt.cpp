@@ -55,9 +55,9 @@ class Nlopt final : public Solver {
     cones_.take(problem);
   }
 
-  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget) override {
+  Solved solve(const FrictionProblem&, Impulses start, const Budget& budget) override {
     return cones_.solve(
-        problem, std::move(start), budget, /*patience=*/40,
+        std::move(start), budget, /*patience=*/40,
         [this](const ConeRequest& request, RoundAnswer& answer) { run(request, answer); });
   }
 

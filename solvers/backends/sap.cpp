@@ -30,7 +30,6 @@ class Sap final : public Solver {
             "sap: the stored W is not symmetric: there is no energy to minimise");
       newton_.prepare(w_);
       linear_.resize(problem.contact_count());
-      no_shift_in_r_.assign(problem.contact_count(), 0.0);
     } else {
       bodies_.prepare(problem);
       mass_ = sparse_mass(problem.dynamics);
@@ -122,8 +121,7 @@ class Sap final : public Solver {
   double newton_on_impulses(const FrictionProblem& problem) {
     for (int c = 0; c < w_.contact_count(); ++c)
       linear_[c] = {w_.at(lambda_, c) - w_.at(gamma_, c), Eigen::Matrix3d::Identity(), hessian_[c]};
-    if (!newton_.solve(w_, linear_, no_shift_in_r_, dv_))
-      return std::numeric_limits<double>::quiet_NaN();
+    if (!newton_.solve(linear_, dv_)) return std::numeric_limits<double>::quiet_NaN();
     w_.multiply(dv_, du_);
     const double decrement = (gamma_ - lambda_).dot(du_);
     w_.multiply(lambda_, away_);
@@ -194,7 +192,6 @@ class Sap final : public Solver {
   std::vector<Eigen::Matrix3d> hessian_;
   NewtonSystem newton_;  ///< of a stored W
   std::vector<ContactLinearisation> linear_;
-  std::vector<double> no_shift_in_r_;
   Impulses lambda_;
   Eigen::VectorXd v_, dv_, u_, du_, true_u_, gamma_, centre_, gradient_, away_;
   double least_energy_ = 0.0;

@@ -137,7 +137,7 @@ class Siconos final : public Solver {
     int chunk = static_cast<int>(std::clamp(visits, 100.0, 1e6));
     is_dense_ = recipe_.factorises && blocks_->contacts() <= recipe_.most_dense;
     Solved solved = solve_in_rounds(
-        problem, moving_, std::move(start), budget, /*patience=*/3,
+        moving_, std::move(start), budget, /*patience=*/3,
         [&](const RoundRequest& request, RoundAnswer& answer) {
           const int most = is_dense_ ? recipe_.most_dense_iterations : chunk;
           const int limit = std::min({chunk, most, request.left.max_iterations});

@@ -5,7 +5,6 @@
 
 #include "platform/for_each_cpu.hpp"
 #include "problems/algebra/contact_error.hpp"
-#include "problems/algebra/delassus.hpp"
 #include "solvers/gauss_seidel/lanes.hpp"
 
 namespace ballast {

@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "problems/algebra/delassus.hpp"
 #include "solvers/gauss_seidel/wide_sweep.hpp"
 
 namespace ballast {

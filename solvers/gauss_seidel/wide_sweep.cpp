@@ -144,17 +144,14 @@ void WideSweep::store_from(const State<Number>& state, Impulses& r) const {
               double normal = y[0][i];
               if constexpr (rows == 3) {
                 const auto& k = kind.groups[g];
-                const double t1 = y[1][i], t2 = y[2][i];
-                normal -= k.c1[i] * t1 + k.c2[i] * t2;
-              }
-              rc[0] = f.inverse_normal[i] * normal;
-              if constexpr (rows == 3) {
-                const double t1 = f.inverse_tangent[i] * y[1][i],
-                             t2 = f.inverse_tangent[i] * y[2][i];
+                const double y1 = y[1][i], y2 = y[2][i];
+                const double t1 = f.inverse_tangent[i] * y1, t2 = f.inverse_tangent[i] * y2;
+                normal -= k.c1[i] * y1 + k.c2[i] * y2;
                 rc[1] = f.cosine[i] * t1 - f.sine[i] * t2;
                 rc[2] = f.sine[i] * t1 + f.cosine[i] * t2;
-                if constexpr (std::is_same_v<Number, float>) put_on_cone(f.mu[i], rc);
               }
+              rc[0] = f.inverse_normal[i] * normal;
+              if constexpr (rows == 3 && std::is_same_v<Number, float>) put_on_cone(f.mu[i], rc);
             }
           }
         },

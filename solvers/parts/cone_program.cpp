@@ -15,18 +15,16 @@ void ConeProgram::take(const FrictionProblem& problem) {
   friction = moving_.friction;
   row_begin.assign(1, 0);
   row_.clear();
-  std::vector<double> scale;
+  scale_.resize(moving_.row_count());
   double largest_lambda = 0.0;
   for (int k = 0; k < moving_.contact_count(); ++k) {
     const int rows = friction[k] > 0.0 ? 3 : 1;
-    for (int i = 0; i < rows; ++i) {
-      row_.push_back(moving_.row_begin[k] + i);
-      scale.push_back(1.0 / std::sqrt(moving_.lambda_max[k]));
-    }
+    scale_.segment(row_begin.back(), rows).setConstant(1.0 / std::sqrt(moving_.lambda_max[k]));
+    for (int i = 0; i < rows; ++i) row_.push_back(moving_.row_begin[k] + i);
     row_begin.push_back(row_begin.back() + rows);
     largest_lambda = std::max(largest_lambda, moving_.lambda_max[k]);
   }
-  scale_ = Eigen::Map<const Eigen::VectorXd>(scale.data(), static_cast<Eigen::Index>(scale.size()));
+  scale_.conservativeResize(row_count());
   q = scale_.cwiseProduct(moving_.q(row_));
   unit_ = q.size() > 0 ? q.lpNorm<Eigen::Infinity>() : 0.0;
   if (!(unit_ > 0.0)) unit_ = 1.0;
@@ -52,8 +50,7 @@ void ConeProgram::project(Eigen::VectorXd& x) const {
       x[row_begin[k]] = std::max(0.0, x[row_begin[k]]);
 }
 
-Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const Budget& budget,
-                          int patience,
+Solved ConeProgram::solve(Impulses start, const Budget& budget, int patience,
                           const std::function<void(const ConeRequest&, RoundAnswer&)>& convex) {
   // A warm start gives the first s; a cold start has s = 0.
   shift_.reset(operator_);
@@ -82,7 +79,7 @@ Solved ConeProgram::solve(const FrictionProblem& problem, Impulses start, const 
     operator_.velocity(r, u);
     shift_.improve(operator_, u);
   };
-  return solve_in_rounds(problem, moving_, std::move(start), budget, patience, round);
+  return solve_in_rounds(moving_, std::move(start), budget, patience, round);
 }
 
 }  // namespace ballast

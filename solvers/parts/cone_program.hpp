@@ -26,6 +26,7 @@ struct ConeRequest {
 /// Contacts that no impulse moves are left out; contacts with mu = 0 keep one row.
 class ConeProgram {
  public:
+  /// `problem` must outlive the use of the program.
   void take(const FrictionProblem& problem);
 
   int contact_count() const { return static_cast<int>(friction.size()); }
@@ -41,8 +42,8 @@ class ConeProgram {
   void project(Eigen::VectorXd& x) const;
 
   /// Calls `convex` in rounds, with the s-update between them. `convex` sets answer.x (rows of
-  /// ConeProgram), iterations and finished. `problem` is the one given to take().
-  Solved solve(const FrictionProblem& problem, Impulses start, const Budget& budget, int patience,
+  /// ConeProgram), iterations and finished.
+  Solved solve(Impulses start, const Budget& budget, int patience,
                const std::function<void(const ConeRequest&, RoundAnswer&)>& convex);
 
  private:

@@ -5,39 +5,35 @@
 namespace ballast {
 
 /// Solves the contacts with df_du = 0 and lists the others.
-bool NewtonSystem::solve_idle(const FrictionProblem& problem,
-                              const std::vector<ContactLinearisation>& linear,
-                              const std::vector<double>& alpha, Impulses& dr) {
+bool NewtonSystem::solve_idle(const std::vector<ContactLinearisation>& linear, Impulses& dr) {
+  const FrictionProblem& problem = w_->problem();
   pressed_.clear();
   pressed_rows_ = 0;
   pressed_entries_ = 0;
-  b_.resize(problem.contact_count());
   place_.resize(problem.row_count());
   dr.resize(problem.row_count());
   for (int c = 0; c < problem.contact_count(); ++c) {
     const ContactLinearisation& l = linear[c];
     const int first = problem.row_begin[c], rows = problem.contact_rows(c);
-    b_[c] = l.df_dr + alpha[c] * l.df_du;
-    if (!b_[c].allFinite() || !l.f.allFinite()) return false;
+    if (!l.df_dr.allFinite() || !l.f.allFinite()) return false;
     const bool is_pressed = rows == 3 ? !l.df_du.isZero(0.0) : l.df_du(0, 0) != 0.0;
     for (int i = 0; i < rows; ++i) place_[first + i] = is_pressed ? pressed_rows_ + i : -1;
     if (is_pressed) {
       pressed_.push_back(c);
       pressed_rows_ += rows;
-      const int* outer = problem.delassus.w.outerIndexPtr();
-      pressed_entries_ += outer[first + rows] - outer[first];
+      pressed_entries_ += problem.delassus.w.middleRows(first, rows).nonZeros();
     } else if (rows == 3) {
-      dr.segment<3>(first) = -(b_[c].inverse() * l.f);
+      dr.segment<3>(first) = -(l.df_dr.inverse() * l.f);
     } else {
-      dr[first] = -l.f[0] / b_[c](0, 0);
+      dr[first] = -l.f[0] / l.df_dr(0, 0);
     }
     if (!is_pressed && !dr.segment(first, rows).allFinite()) return false;
   }
   return true;
 }
 
-bool NewtonSystem::solve_dense(const FrictionProblem& problem,
-                               const std::vector<ContactLinearisation>& linear, Impulses& dr) {
+bool NewtonSystem::solve_dense(const std::vector<ContactLinearisation>& linear, Impulses& dr) {
+  const FrictionProblem& problem = w_->problem();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(pressed_rows_, pressed_rows_);
   Eigen::VectorXd right(pressed_rows_);
   for (const int c : pressed_) {
@@ -51,7 +47,7 @@ bool NewtonSystem::solve_dense(const FrictionProblem& problem,
           right.segment(at, rows) -= df_du.col(i) * (w.value() * dr[w.col()]);
         else
           matrix.col(place_[w.col()]).segment(at, rows) += df_du.col(i) * w.value();
-    matrix.block(at, at, rows, rows) += b_[c].topLeftCorner(rows, rows);
+    matrix.block(at, at, rows, rows) += linear[c].df_dr.topLeftCorner(rows, rows);
   }
   const Eigen::VectorXd solution = matrix.partialPivLu().solve(right);  // NaN where singular
   if (!solution.allFinite()) return false;
@@ -62,8 +58,8 @@ bool NewtonSystem::solve_dense(const FrictionProblem& problem,
 
 /// Solves for all contacts, so that the pattern stays and is ordered once; idle ones have B alone
 /// in their rows.
-bool NewtonSystem::solve_sparse(const FrictionProblem& problem,
-                                const std::vector<ContactLinearisation>& linear, Impulses& dr) {
+bool NewtonSystem::solve_sparse(const std::vector<ContactLinearisation>& linear, Impulses& dr) {
+  const FrictionProblem& problem = w_->problem();
   const int all_rows = problem.row_count();
   std::vector<Eigen::Triplet<double>> gains, own;
   Eigen::VectorXd right(all_rows);
@@ -73,7 +69,7 @@ bool NewtonSystem::solve_sparse(const FrictionProblem& problem,
     for (int i = 0; i < rows; ++i)
       for (int j = 0; j < rows; ++j) {
         gains.emplace_back(first + i, first + j, linear[c].df_du(i, j));
-        own.emplace_back(first + i, first + j, b_[c](i, j));
+        own.emplace_back(first + i, first + j, linear[c].df_dr(i, j));
       }
   }
   // Zeros among the triplets stay entries.
@@ -87,45 +83,42 @@ bool NewtonSystem::solve_sparse(const FrictionProblem& problem,
 }
 
 void NewtonSystem::prepare(const ContactOperator& w) {
+  w_ = &w;
   if (w.problem().has_dynamics) matrix_.prepare(w.problem());
 }
 
-bool NewtonSystem::solve_bodies(const ContactOperator& w,
-                                const std::vector<ContactLinearisation>& linear,
-                                const std::vector<double>& alpha, Impulses& dr) {
-  const FrictionProblem& problem = w.problem();
+bool NewtonSystem::solve_bodies(const std::vector<ContactLinearisation>& linear, Impulses& dr) {
+  const FrictionProblem& problem = w_->problem();
   gain_.resize(linear.size());
   dr.resize(problem.row_count());
   for (int c = 0; c < problem.contact_count(); ++c) {
-    const Eigen::Matrix3d inverse = (linear[c].df_dr + alpha[c] * linear[c].df_du).inverse();
+    const Eigen::Matrix3d inverse = linear[c].df_dr.inverse();
     const Eigen::Vector3d source = inverse * linear[c].f;
     gain_[c] = inverse * linear[c].df_du;
     if (problem.contact_rows(c) == 1)
       gain_[c] = Eigen::Vector3d(gain_[c](0, 0), 0.0, 0.0).asDiagonal();
     if (!source.allFinite() || !gain_[c].allFinite()) return false;
-    w.put(dr, c, -source);
+    w_->put(dr, c, -source);
   }
-  return solve_springs(w, gain_, dr, u_);
+  return solve_springs(gain_, dr, u_);
 }
 
-bool NewtonSystem::solve_springs(const ContactOperator& w, const std::vector<Eigen::Matrix3d>& gain,
-                                 Impulses& dr, Eigen::VectorXd& du, double enough) {
-  const FrictionProblem& problem = w.problem();
+bool NewtonSystem::solve_springs(const std::vector<Eigen::Matrix3d>& gain, Impulses& dr,
+                                 Eigen::VectorXd& du, double enough) {
+  const FrictionProblem& problem = w_->problem();
   contact_to_body_impulse(problem.dynamics, problem.row_begin, dr, right_);
   if (!matrix_.solve(gain, right_, dv_, enough)) return false;
   body_to_contact_velocity(problem.dynamics, problem.row_begin, dv_, du);
   // body_to_contact_velocity() adds the bias, which is no part of a change of velocity.
   du -= problem.dynamics.bias;
   for (int c = 0; c < problem.contact_count(); ++c)
-    w.put(dr, c, w.at(dr, c) - gain[c] * w.at(du, c));
+    w_->put(dr, c, w_->at(dr, c) - gain[c] * w_->at(du, c));
   return true;
 }
 
-bool NewtonSystem::solve(const ContactOperator& w, const std::vector<ContactLinearisation>& linear,
-                         const std::vector<double>& alpha, Impulses& dr) {
-  const FrictionProblem& problem = w.problem();
-  if (problem.has_dynamics) return solve_bodies(w, linear, alpha, dr);
-  if (!solve_idle(problem, linear, alpha, dr)) return false;
+bool NewtonSystem::solve(const std::vector<ContactLinearisation>& linear, Impulses& dr) {
+  if (w_->problem().has_dynamics) return solve_bodies(linear, dr);
+  if (!solve_idle(linear, dr)) return false;
   if (pressed_.empty()) return true;
   // With few rows a dense factorisation is faster than looking for zeros; with more it is so where
   // this share of the square is filled.
@@ -134,7 +127,7 @@ bool NewtonSystem::solve(const ContactOperator& w, const std::vector<ContactLine
   const double square = static_cast<double>(pressed_rows_) * pressed_rows_;
   const bool is_full = static_cast<double>(pressed_entries_) > nearly_full * square;
   const bool is_dense = pressed_rows_ <= few_rows || (is_full && pressed_rows_ <= most_dense_rows);
-  return is_dense ? solve_dense(problem, linear, dr) : solve_sparse(problem, linear, dr);
+  return is_dense ? solve_dense(linear, dr) : solve_sparse(linear, dr);
 }
 
 }  // namespace ballast

@@ -24,7 +24,7 @@ void ReducedProblem::take(const FrictionProblem& problem) {
   free_contact_velocity(problem, whole_q);
   // The contacts to keep, and the positions of their rows.
   *this = {};
-  problem_rows = problem.row_count();
+  whole = &problem;
   for (int c = 0; c < problem.contact_count(); ++c) {
     const double largest = largest_eigenvalue(diagonal[c]);
     if (!(largest > 0.0)) continue;
@@ -60,8 +60,8 @@ bool answer_apart(const Budget& left, const std::function<bool(RoundAnswer&)>& c
   return true;
 }
 
-Solved solve_in_rounds(const FrictionProblem& problem, const ReducedProblem& moving, Impulses start,
-                       const Budget& budget, int patience,
+Solved solve_in_rounds(const ReducedProblem& moving, Impulses start, const Budget& budget,
+                       int patience,
                        const std::function<void(const RoundRequest&, RoundAnswer&)>& round) {
   Course course(budget, std::move(start));
   ContactJudge judge;
@@ -73,14 +73,13 @@ Solved solve_in_rounds(const FrictionProblem& problem, const ReducedProblem& mov
     Stopwatch watch;
     last = x;
     moving.scatter(last, r);
-    last_error = judge.judge(problem, r).natural_map_rms;
+    last_error = judge.judge(*moving.whole, r).natural_map_rms;
     course.add_startup(watch.restart());
     course.offer(r, last_error);
-    moving.gather(course.best(), best);
+    best = course.best()(moving.row);
     course.add_startup(watch.seconds());
   };
-  moving.gather(course.best(), best);
-  judged(best);
+  judged(course.best()(moving.row));
   // A round makes progress if the error is a tenth less than at the last progress.
   double from = course.error();
   int idle = 0;  // finished rounds without progress

@@ -15,20 +15,19 @@ SparseRows chosen(const SparseRows& w, const std::vector<int>& row);
 /// u = w r + q over the contacts kept, in the problem's order. Any impulse solves the others
 /// (W_cc = 0: both bodies fixed); they get zero.
 struct ReducedProblem {
-  std::vector<int> contact;       ///< number in the problem of each contact kept
-  std::vector<int> row_begin{0};  ///< rows of contact k here; size kept + 1
+  const FrictionProblem* whole = nullptr;  ///< given to take(); must outlive the use of this one
+  std::vector<int> contact;                ///< number in the problem of each contact kept
+  std::vector<int> row_begin{0};           ///< rows of contact k here; size kept + 1
   std::vector<double> friction;
   std::vector<double> lambda_max;  ///< of W_cc, > 0 [1/kg]
   SparseRows w;                    ///< as the problem gives it: a stored W may be unsymmetric
   Eigen::VectorXd q;
   std::vector<int> row;  ///< number in the problem of each row here
-  int problem_rows = 0;
 
   void take(const FrictionProblem& problem);
-  void gather(const Impulses& r, Eigen::VectorXd& x) const { x = r(row); }
   /// Contacts that were not kept become zero.
   void scatter(const Eigen::VectorXd& x, Impulses& r) const {
-    r.setZero(problem_rows);
+    r.setZero(whole->row_count());
     r(row) = x;
   }
 
@@ -63,8 +62,8 @@ bool answer_apart(const Budget& left, const std::function<bool(RoundAnswer&)>& c
 /// Calls `round` until the judge's error of the best iterate meets the budget, and returns that
 /// iterate; `stalled` when `patience` finished rounds after another bring no tenth less error. The
 /// judge evaluates every round's result; its time is start-up.
-Solved solve_in_rounds(const FrictionProblem& problem, const ReducedProblem& moving, Impulses start,
-                       const Budget& budget, int patience,
+Solved solve_in_rounds(const ReducedProblem& moving, Impulses start, const Budget& budget,
+                       int patience,
                        const std::function<void(const RoundRequest&, RoundAnswer&)>& round);
 
 }  // namespace ballast

@@ -1,5 +1,3 @@
-
-#include "problems/algebra/known_solutions.hpp"
 #include "problems/algebra/made_problems.hpp"
 #include "solvers/backends/backends.hpp"
 #include "tests/catch.hpp"

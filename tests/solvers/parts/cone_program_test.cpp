@@ -36,7 +36,7 @@ TEST_CASE("a convex solver with the s-update around it comes to Coulomb's law") 
     }
     answer.x = x;
   };
-  const Solved solved = program.solve(known.problem, Impulses::Zero(known.problem.row_count()),
+  const Solved solved = program.solve(Impulses::Zero(known.problem.row_count()),
                                       {.tolerance = 1e-6, .max_iterations = 60}, 20, convex);
   CHECK(solved.reason == StopReason::reached_tolerance);
   CHECK(contact_error(known.problem, solved.impulses).natural_map_rms <= 1e-6);

@@ -1,5 +1,7 @@
 #include "solvers/parts/contact_equation.hpp"
 
+#include <cmath>
+
 #include "platform/random.hpp"
 #include "problems/algebra/friction_cone.hpp"
 #include "tests/catch.hpp"
@@ -76,4 +78,84 @@ TEST_CASE("derivatives of the contact equations, by differences") {
     }
     CHECK(rough <= 5);
   }
+}
+
+namespace {
+
+Vector3d centred_vector(Random& random) {
+  return {random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
+}
+
+constexpr double epsilon = 1e-2, friction = 0.5, rho = 0.5;
+
+}  // namespace
+
+TEST_CASE("where u_N = 0 the step is Newton's on Alart and Curnier's function") {
+  // There the two radii of the disc, mu r_N and mu z_N, are equal. dr solves
+  //   F + df_dr dr + df_du (du + epsilon_c dr) = 0.
+  Random random(7);
+  int slips = 0, sticks = 0;
+  for (int k = 0; k < 400; ++k) {
+    Vector3d r = centred_vector(random), u = 4.0 * centred_vector(random);
+    const Vector3d du = centred_vector(random);
+    r[0] = std::abs(r[0]) + 0.1;
+    u[0] = 0.0;
+    const RegularStep step = regular_step(friction, rho, epsilon, r, u);
+    const ContactLinearisation l = linearise(ContactEquation::alart_curnier, r, u, friction, rho);
+    const Vector3d dr = step.source - step.gain * du;
+    const Vector3d left = l.f + l.df_dr * dr + l.df_du * (du + epsilon / rho * dr);
+    CHECK(left.norm() < 1e-12);
+    slips += step.status == ContactStatus::slip;
+    sticks += step.status == ContactStatus::stick;
+  }
+  CHECK(slips > 50);
+  CHECK(sticks > 10);
+}
+
+TEST_CASE("a slipping step ends at u_N = 0 and on the edge of the disc, which moves with r_N") {
+  Random random(11);
+  int slips = 0;
+  for (int k = 0; k < 200; ++k) {
+    Vector3d r = centred_vector(random);
+    r[0] = std::abs(r[0]) + 0.1;
+    const Vector3d u = 4.0 * centred_vector(random), du = centred_vector(random);
+    const RegularStep step = regular_step(friction, rho, epsilon, r, u);
+    if (step.status != ContactStatus::slip) continue;
+    ++slips;
+    const Vector3d dr = step.source - step.gain * du, after = r + dr;
+    const Vector3d z = r - rho * u;
+    const double compliance = epsilon / rho;
+    CHECK(std::abs(u[0] + du[0] + compliance * dr[0]) < 1e-12);
+    const double along = (z[1] * after[1] + z[2] * after[2]) / std::hypot(z[1], z[2]);
+    CHECK(along == Approx(friction * after[0]).margin(1e-9));
+  }
+  CHECK(slips > 50);
+}
+
+TEST_CASE("an open contact loses its impulse, whatever the bodies do") {
+  const RegularStep step = regular_step(friction, rho, epsilon, {0.1, 0.2, -0.1}, {1.0, 0.3, 0.0});
+  CHECK(step.status == ContactStatus::open);
+  CHECK(step.source == Vector3d(-0.1, -0.2, 0.1));
+  CHECK(step.gain.isZero(0.0));
+}
+
+TEST_CASE("a half-line has no tangential impulse, also where all is at rest") {
+  const RegularStep step = regular_step(0.0, rho, epsilon, {1.0, 0.25, 0.5}, {-0.5, 0.0, 0.0});
+  CHECK(step.source == Vector3d(0.5 * rho / epsilon, -0.25, -0.5));
+  CHECK(step.gain.bottomRows<2>().isZero(0.0));
+  CHECK(step.gain(0, 0) == rho / epsilon);
+}
+
+TEST_CASE("a slipping contact that is pulled keeps a gain that is not negative") {
+  // r_N < 0: the disc is empty, and kappa is zero.
+  const RegularStep step = regular_step(friction, rho, epsilon, {-0.1, 0.0, 0.1}, {-1.0, 2.0, 0.0});
+  CHECK(step.status == ContactStatus::slip);
+  const Matrix3d symmetric = 0.5 * (step.gain + step.gain.transpose());
+  CHECK(step.gain.block<2, 2>(1, 1).isZero(0.0));
+  CHECK(symmetric(0, 0) > 0.0);
+  // r_N is large: kappa is limited to one.
+  const RegularStep held = regular_step(friction, rho, epsilon, {10.0, 0.0, 0.1}, {19.0, 2.0, 0.0});
+  REQUIRE(held.status == ContactStatus::slip);
+  CHECK(held.gain(2, 2) <= rho / epsilon * (1.0 + 1e-12));
+  CHECK(held.gain(2, 2) >= 0.0);
 }

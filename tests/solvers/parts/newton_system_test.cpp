@@ -10,8 +10,8 @@ using namespace ballast;
 
 namespace {
 
-/// Blocks without a pattern that are regular together with alpha. The share `idle` of the contacts
-/// has df_du = 0.
+/// Blocks without a pattern, regular with and without a proximal term. The share `idle` of the
+/// contacts has df_du = 0.
 std::vector<ContactLinearisation> some_blocks(const FrictionProblem& problem, double idle = 0.0) {
   std::vector<ContactLinearisation> linear(problem.contact_count());
   double next = 0.41;  // logistic map
@@ -32,17 +32,16 @@ std::vector<ContactLinearisation> some_blocks(const FrictionProblem& problem, do
   return linear;
 }
 
-/// The norm of (df_dr + df_du (W + alpha)) dr + f, by dense matrices.
+/// The norm of (df_dr + df_du W) dr + f, by dense matrices.
 double residual(const FrictionProblem& problem, const Eigen::MatrixXd& w,
-                const std::vector<ContactLinearisation>& linear, const std::vector<double>& alpha,
-                const Impulses& dr) {
+                const std::vector<ContactLinearisation>& linear, const Impulses& dr) {
   const Eigen::VectorXd du = w * dr;
   double sum = 0.0;
   for (int c = 0; c < problem.contact_count(); ++c) {
     const int begin = problem.row_begin[c], rows = problem.contact_rows(c);
     const Eigen::VectorXd r = dr.segment(begin, rows), u = du.segment(begin, rows);
     const Eigen::VectorXd left = linear[c].df_dr.topLeftCorner(rows, rows) * r +
-                                 linear[c].df_du.topLeftCorner(rows, rows) * (u + alpha[c] * r) +
+                                 linear[c].df_du.topLeftCorner(rows, rows) * u +
                                  linear[c].f.head(rows);
     sum += left.squaredNorm();
   }
@@ -51,16 +50,16 @@ double residual(const FrictionProblem& problem, const Eigen::MatrixXd& w,
 
 /// Solves with several sets of blocks in one pattern. `w`: the W of the whole problem.
 void check_solves(const FrictionProblem& problem, const Eigen::MatrixXd& w,
-                  const std::vector<ContactLinearisation>& linear) {
+                  std::vector<ContactLinearisation> linear) {
   ContactOperator op;
   op.prepare(problem);
   NewtonSystem system;
   system.prepare(op);
-  for (const double weight : {1e-2, 1.0}) {
-    const std::vector<double> alpha(problem.contact_count(), weight);
+  for (const double more_alpha : {1e-2, 0.99}) {
+    for (ContactLinearisation& l : linear) l.df_dr += more_alpha * l.df_du;
     Impulses dr;
-    REQUIRE(system.solve(op, linear, alpha, dr));
-    CHECK(residual(problem, w, linear, alpha, dr) <= 1e-10 * (1.0 + dr.norm()));
+    REQUIRE(system.solve(linear, dr));
+    CHECK(residual(problem, w, linear, dr) <= 1e-10 * (1.0 + dr.norm()));
     CHECK(dr.norm() > 0.0);
   }
 }
@@ -95,7 +94,7 @@ TEST_CASE("contacts like springs: dr = source - gain du with du = W dr", "[facto
     for (const double enough : {0.0, 1e-10}) {
       Impulses dr = source;
       Eigen::VectorXd du;
-      REQUIRE(system.solve_springs(op, gain, dr, du, enough));
+      REQUIRE(system.solve_springs(gain, dr, du, enough));
       CHECK((oracle::dense_delassus(problem) * dr - du).norm() <= 1e-9 * du.norm());
       for (int c = 0; c < problem.contact_count(); ++c) {
         const Eigen::Vector3d left = op.at(source, c) - gain[c] * op.at(du, c) - op.at(dr, c);
@@ -130,10 +129,10 @@ TEST_CASE("a singular system is said to be so, a stored W does without alpha", "
     system.prepare(op);
     Impulses dr;
     const auto solves = [&](const Eigen::Matrix3d& df_du, double alpha) {
-      const std::vector<ContactLinearisation> all(3, {Eigen::Vector3d::Ones(), zero, df_du});
-      return system.solve(op, all, std::vector<double>(3, alpha), dr);
+      const ContactLinearisation stuck{Eigen::Vector3d::Ones(), alpha * df_du, df_du};
+      return system.solve(std::vector<ContactLinearisation>(3, stuck), dr);
     };
-    // Sticking contacts: df_dr = 0, and B = alpha df_du is singular for alpha = 0.
+    // Sticking contacts: df_dr = alpha df_du is singular for alpha = 0.
     CHECK(solves(one, 0.0) == problem.has_delassus);
     CHECK_FALSE(solves(zero, 0.1));
   }

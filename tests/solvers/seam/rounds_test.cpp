@@ -23,12 +23,12 @@ struct Trial {
 
   Trial() {
     moving.take(known.problem);
-    moving.gather(known.r, exact);
+    exact = known.r(moving.row);
   }
   Solved solve(const Budget& budget, int patience,
                const std::function<void(const RoundRequest&, RoundAnswer&)>& round) {
-    return solve_in_rounds(known.problem, moving, Impulses::Zero(known.problem.row_count()), budget,
-                           patience, round);
+    return solve_in_rounds(moving, Impulses::Zero(known.problem.row_count()), budget, patience,
+                           round);
   }
 };
 
@@ -176,8 +176,7 @@ TEST_CASE("impulses there and back: what moves stays, what does not becomes zero
   ReducedProblem moving;
   moving.take(problem);
   const Impulses r = Impulses::LinSpaced(problem.row_count(), 1.0, 2.0);
-  Eigen::VectorXd x;
-  moving.gather(r, x);
+  const Eigen::VectorXd x = r(moving.row);
   CHECK(x.size() == 14);
   Impulses back, expected = r;
   moving.scatter(x, back);
