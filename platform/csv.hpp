@@ -3,6 +3,7 @@
 // cell is one line: line ends in it become blanks.
 
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@ class CsvWriter {
   void add(long value);
   void end_row();
   void add_row(std::span<const std::string> cells);
+  void add_row(std::initializer_list<std::string> cells) { add_row(std::span(cells)); }
 
   /// Returns the text that was written since the last call.
   std::string take() { return std::exchange(text_, {}); }

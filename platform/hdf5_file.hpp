@@ -100,22 +100,15 @@ class Hdf5Writer : public Hdf5File {
   void add_attribute(const std::string& object, const std::string& attribute,
                      const std::string& text);
 
-  void add(const std::string& name, std::span<const double> values, const Hdf5Shape& shape) {
-    add(name, Hdf5Number::float64, values.data(), shape);
-  }
-  void add(const std::string& name, std::span<const std::int32_t> values, const Hdf5Shape& shape) {
-    add(name, Hdf5Number::int32, values.data(), shape);
-  }
-  void add(const std::string& name, std::span<const std::int64_t> values, const Hdf5Shape& shape) {
-    add(name, Hdf5Number::int64, values.data(), shape);
-  }
-  void add(const std::string& name, std::span<const std::uint64_t> values, const Hdf5Shape& shape) {
-    add(name, Hdf5Number::uint64, values.data(), shape);
+  /// `numbers`: std::vector, std::span or Eigen::VectorXd of any type that Hdf5Number knows.
+  template <typename Numbers>
+  void add(const std::string& name, const Numbers& numbers, const Hdf5Shape& shape) {
+    add(name, number_of(numbers.data()), numbers.data(), shape);
   }
   /// A dataset of one dimension.
-  template <typename Value>
-  void add(const std::string& name, const std::vector<Value>& values) {
-    add(name, std::span<const Value>(values), {values.size()});
+  template <typename Numbers>
+  void add(const std::string& name, const Numbers& numbers) {
+    add(name, numbers, {static_cast<std::size_t>(numbers.size())});
   }
   void add(const std::string& name, const std::vector<std::string>& texts);
   /// One text, stored with its length.
@@ -133,6 +126,10 @@ class Hdf5Writer : public Hdf5File {
   void commit();
 
  private:
+  static Hdf5Number number_of(const double*) { return Hdf5Number::float64; }
+  static Hdf5Number number_of(const std::int32_t*) { return Hdf5Number::int32; }
+  static Hdf5Number number_of(const std::int64_t*) { return Hdf5Number::int64; }
+  static Hdf5Number number_of(const std::uint64_t*) { return Hdf5Number::uint64; }
   /// As Hdf5File::check(), but a failure of the disk takes precedence over one of HDF5.
   std::int64_t check(std::int64_t result, const std::string& action) const;
   Hdf5Id make_dataset(const std::string& name, std::int64_t type, const Hdf5Shape& shape,

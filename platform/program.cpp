@@ -19,6 +19,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <string_view>
+#include <utility>
 
 #include "platform/atomic_file.hpp"
 #include "platform/clock.hpp"
@@ -199,14 +200,13 @@ Words unsaid_threads() {
   return unsaid;
 }
 
-/// Runs in the child: becomes the program. Returns errno when it cannot.
-int become(const Words& words, const Words& environment, int input, int output, int errors) {
+/// Runs in the child: becomes the program. Returns when it cannot, with errno.
+void become(const Words& words, const Words& environment, int input, int output, int errors) {
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
   execvpe(words[0], const_cast<char* const*>(words.data()),
           const_cast<char* const*>(environment.data()));
-  return errno;
 }
 
 int nothing_to_read() { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
@@ -223,8 +223,8 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
   ChildProcess child([&] {
     const rlimit limit{most_bytes, most_bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
-    const int error = become(words, environment, nothing_to_read(), output.number, errors.number);
-    dprintf(STDERR_FILENO, "cannot be started: %s", std::strerror(error));
+    become(words, environment, nothing_to_read(), output.number, errors.number);
+    dprintf(STDERR_FILENO, "cannot be started: %s", std::strerror(errno));
     _exit(127);
   });
   const bool timed_out = !child.ends_within(seconds);
@@ -243,8 +243,8 @@ std::unique_ptr<ChildProcess> start_program(const fs::path& program,
               environment = changed_environment({}, unsaid_threads());
   return std::make_unique<ChildProcess>([&] {
     setpgid(0, 0);
-    const int error = become(words, environment, nothing_to_read(), file.number, file.number);
-    dprintf(STDERR_FILENO, "ballast: %s: cannot be started: %s\n", words[0], std::strerror(error));
+    become(words, environment, nothing_to_read(), file.number, file.number);
+    dprintf(STDERR_FILENO, "ballast: %s: cannot be started: %s\n", words[0], std::strerror(errno));
     _exit(127);
   });
 }
@@ -264,7 +264,13 @@ struct Ends {
     ours = ends[0];
     theirs = ends[1];
   }
-  int ours, theirs;
+  ~Ends() {
+    if (ours >= 0) close(ours);
+    close(theirs);
+  }
+  Ends(const Ends&) = delete;
+  Ends& operator=(const Ends&) = delete;
+  int ours, theirs;  // ours is -1 when it has another owner
 };
 
 /// Runs in the supervisor, which adopts every orphan of the program: kills its children until there
@@ -335,9 +341,7 @@ SupervisedProgram::SupervisedProgram(const std::string& command,
   const std::string script = command + " \"$@\"";
   const Words words = words_of({"/bin/sh", "-c", script.c_str(), "sh"}, arguments);
   const Words environment = changed_environment({}, {});
-  const Ends talk, errors;
-  talk_ = talk.ours;
-  errors_ = errors.ours;
+  Ends talk, errors;
   const auto become_program = [&] {
     if (limits.memory_MB > 0.0) {
       const auto bytes = static_cast<rlim_t>(limits.memory_MB * 1048576.0);
@@ -351,8 +355,8 @@ SupervisedProgram::SupervisedProgram(const std::string& command,
   // There are two supervisors: where one is killed, the other clears up.
   supervisor_ =
       std::make_unique<ChildProcess>([&] { supervise([&] { supervise(become_program); }); });
-  close(talk.theirs);
-  close(errors.theirs);
+  talk_ = std::exchange(talk.ours, -1);
+  errors_ = std::exchange(errors.ours, -1);
 }
 
 SupervisedProgram::~SupervisedProgram() {

@@ -66,7 +66,7 @@ void WorkerTeam::stop() {
   members_ = size_ = 1;
 }
 
-void WorkerTeam::start(int parts, Call call, const void* context) {
+void WorkerTeam::run(int parts, Call call, const void* context) {
   const PackedRound number = (task_.round.load(std::memory_order_relaxed) >> number_bits) + 1;
   const PackedRound round = (number << number_bits) + static_cast<PackedRound>(parts);
   task_.call = call;

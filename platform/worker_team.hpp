@@ -34,21 +34,11 @@ class WorkerTeam {
   /// The number of members that work.
   int size() const { return size_; }
 
-  /// Calls task(part) for every part in [0, parts), each on one thread, and returns when all are
-  /// done. `task` must not throw.
-  template <typename Task>
-  void run(int parts, const Task& task) {
-    if (size_ == 1 || parts < 2) {
-      for (int part = 0; part < parts; ++part) task(part);
-      return;
-    }
-    start(
-        parts, [](const void* context, int part) { (*static_cast<const Task*>(context))(part); },
-        &task);
-  }
+  using Call = void (*)(const void* context, int part);
+  /// run_parts() for a team of several members that work.
+  void run(int parts, Call call, const void* context);
 
  private:
-  using Call = void (*)(const void*, int);
   /// A round and a number that belongs to it, read and written as one: round * 2^24 + number. A
   /// late thread therefore cannot take a part of a round that is over. Round numbers do not wrap
   /// around: 2^40 of them take months.
@@ -67,7 +57,6 @@ class WorkerTeam {
     const void* context = nullptr;
   };
 
-  void start(int parts, Call call, const void* context);
   void do_parts(int member, PackedRound round);
   void work(int member, PackedRound seen);
   void stop();
@@ -111,10 +100,14 @@ class TeamPace {
 /// The number of members that work; without a team, 1: the caller.
 inline int size_of(const WorkerTeam* team) { return team ? team->size() : 1; }
 
-/// Runs the parts by the team, or by the caller alone where there is none.
+/// Calls task(part) for every part in [0, parts), each on one thread, and returns when all are
+/// done. Null: the caller does them in order. `task` must not throw.
 template <typename Task>
 void run_parts(WorkerTeam* team, int parts, const Task& task) {
-  if (team) return team->run(parts, task);
+  if (size_of(team) > 1 && parts > 1)
+    return team->run(
+        parts, [](const void* context, int part) { (*static_cast<const Task*>(context))(part); },
+        &task);
   for (int part = 0; part < parts; ++part) task(part);
 }
 

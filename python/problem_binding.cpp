@@ -173,9 +173,9 @@ void answer(const ExternalRequest& request, const std::filesystem::path& file, i
             const Doubles& history) {
   ExternalAnswer answer;
   answer.status = status;
-  if (r) answer.impulses = impulses_of(request.problem, *r);
-  answer.iterations = iterations;
-  answer.own_residual = residual;
+  if (r) answer.solved.impulses = impulses_of(request.problem, *r);
+  answer.solved.iterations = iterations;
+  answer.solved.own_residual = residual;
   answer.seconds = seconds;
   if (history.size() % 3 != 0 || (history.ndim() == 2 && history.shape(1) != 3))
     throw std::invalid_argument("history: expected three numbers per point, the shape (k, 3)");
@@ -183,7 +183,7 @@ void answer(const ExternalRequest& request, const std::filesystem::path& file, i
     if (!Vec3(point).allFinite()) continue;
     if (std::abs(point[0]) > std::numeric_limits<int>::max())
       throw std::invalid_argument("history has an iteration that is no count");
-    answer.history.push_back({static_cast<int>(point[0]), point[1], point[2]});
+    answer.solved.history.push_back({static_cast<int>(point[0]), point[1], point[2]});
   }
   write_answer(file, request, answer);
 }
@@ -213,11 +213,7 @@ void add_problems(py::module_& module) {
                        const std::filesystem::path& file) { write_problem(file, p); })
       .def_property_readonly("contact_count", &FrictionProblem::contact_count)
       .def_property_readonly("has_bodies", [](const FrictionProblem& p) { return p.has_dynamics; })
-      .def_property_readonly("mu",
-                             [](const FrictionProblem& p) {
-                               return Doubles(static_cast<py::ssize_t>(p.friction.size()),
-                                              p.friction.data());
-                             })
+      .def_property_readonly("mu", [](const FrictionProblem& p) { return owned(p.friction); })
       .def_property_readonly("q",
                              [](const FrictionProblem& p) {
                                Eigen::VectorXd q;

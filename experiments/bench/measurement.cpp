@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/measure/curve_fit.hpp"
-#include "experiments/page/markdown.hpp"
+#include "experiments/page/page.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"

@@ -205,11 +205,9 @@ std::vector<Measurement> run_kernels(const std::vector<Kernel>& kernels,
   return measurements;
 }
 
-std::vector<BenchStep> measure_steps(const Scene& scene, PreparedRun start, long steps,
-                                     int threads) {
-  Scene threaded = scene;
-  threaded.solver.threads = threads;
-  TimeStepper stepper(start.system, threaded, start.system.first_driven_wall());
+std::vector<BenchStep> measure_steps(Scene scene, PreparedRun start, long steps, int threads) {
+  scene.solver.threads = threads;
+  TimeStepper stepper(start.system, scene, start.system.first_driven_wall());
   std::vector<BenchStep> result;
   for (long k = 0; k < steps; ++k) {
     const double begin = processor_seconds();

@@ -63,8 +63,7 @@ struct BenchStep {
 
 /// Steps `start` `steps` times with the scene's settings and `threads`. Measures of a run that are
 /// not part of the step (solid fraction, recording) are left out.
-std::vector<BenchStep> measure_steps(const Scene& scene, PreparedRun start, long steps,
-                                     int threads);
+std::vector<BenchStep> measure_steps(Scene scene, PreparedRun start, long steps, int threads);
 
 /// Medians and means by phase of the step, counters and accuracy; once for all steps and once for
 /// those of each state of the wall (wall_state()). Group "<threads> threads, all".

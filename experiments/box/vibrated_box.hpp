@@ -14,15 +14,8 @@ enum class BoxStage { rain, press, settle, drive };
 const char* name_of(BoxStage stage);
 
 /// Bodies of the box in fixed order: grains 0 .. count-1, then these walls.
-enum BoxWall {
-  wall_floor,
-  wall_lid,
-  wall_x_min,
-  wall_x_max,
-  wall_y_min,
-  wall_y_max,
-  box_wall_count
-};
+enum BoxWall { wall_floor, wall_lid, wall_x_min, wall_x_max, wall_y_min, wall_y_max };
+constexpr int box_wall_count = 6;
 
 /// The grains of a scene, generated or read from its meshes, at rest in a loose rain without
 /// overlap above the floor; of a tiled box copies of a tile's.

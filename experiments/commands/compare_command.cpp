@@ -12,7 +12,7 @@
 #include "experiments/compare/collection.hpp"
 #include "experiments/compare/compare_page.hpp"
 #include "experiments/compare/comparison.hpp"
-#include "experiments/compare/live_page.hpp"
+#include "experiments/compare/live.hpp"
 #include "experiments/compare/ranking.hpp"
 #include "experiments/compare/stored_comparison.hpp"
 #include "experiments/run/run.hpp"
@@ -180,7 +180,7 @@ struct CompareRequest {
   bool report = true, is_quiet = false;
 };
 
-bool show(const CompareRow& row, bool was_stored, size_t done, size_t count) {
+void show(const CompareRow& row, bool was_stored, size_t done, size_t count) {
   std::cout << printed("%5zu/%zu  %-34.34s ", done, count, row.case_name.c_str());
   if (row.verdict == Verdict::unreadable)
     std::cout << "unreadable: " << row.note;
@@ -191,7 +191,6 @@ bool show(const CompareRow& row, bool was_stored, size_t done, size_t count) {
                          row.verdict == Verdict::denied ? "  JUDGE DISAGREES" : "")
               << (row.note.empty() ? "" : "  " + row.note);
   std::cout << std::endl;
-  return !InterruptGuard::requested();
 }
 
 constexpr const char* interrupted =
@@ -205,7 +204,6 @@ ExitCode compare_live(CompareRequest& options) {
     if (!options.is_quiet)
       std::cout << trajectory.label() << ": " << trajectory.steps.size() << " steps, "
                 << trajectory.ended << std::endl;
-    return !InterruptGuard::requested();
   };
   Manifest manifest("compare --live " + live.scene, {options.comparison.command}, binary_key());
   manifest.summary("blas", loaded_blas());
@@ -269,7 +267,7 @@ ExitCode compare(CompareRequest& options) {
   // Destroyed before `guard`: the programs and their folders go while SIGPIPE is still ignored.
   const CompareOptions comparison = std::exchange(options.comparison, {});
   const auto told = [&](const CompareRow& row, bool was_stored, size_t done, size_t count) {
-    return options.is_quiet ? !InterruptGuard::requested() : show(row, was_stored, done, count);
+    if (!options.is_quiet) show(row, was_stored, done, count);
   };
   const std::vector<CompareRow> rows = run_comparison(cases, comparison, told);
   if (InterruptGuard::requested()) throw Error(interrupted);
@@ -286,8 +284,10 @@ ExitCode compare(CompareRequest& options) {
 }
 
 /// The cases and, before the words that exclude --live, those that need it.
-std::vector<Word> first_words(CompareRequest& options) {
+std::vector<Word> words_of(CompareRequest& options) {
   LiveOptions& live = options.live;
+  CompareOptions& comparison = options.comparison;
+  const Rule not_live = excludes("--live");  // whose solvers work inside the step
   return {
       {"cases", &options.cases, "Files, folders, patterns, known:..., pile:..., stress:..."},
       {"--live SCENE", &live.scene,
@@ -306,47 +306,45 @@ std::vector<Word> first_words(CompareRequest& options) {
       {"--trajectory-seconds", &live.trajectory_seconds,
        "Limit on the wall clock of one trajectory [s]", above(0), needs("--live")},
       {"--packing-cache DIR", &live.packing_cache,
-       "Where deposited packings are kept (default: <output>/packings)", needs("--live")}};
+       "Where deposited packings are kept (default: <output>/packings)", needs("--live")},
+      {"--solvers", into(comparison.solvers, parse_solvers, "all"),
+       "Names of backends, separated by commas; all; or none (external programs alone)"},
+      {"--external NAME=COMMAND", &options.external,
+       "Adds a program that solves, or FILE.toml with a list of them (docs/manual/external.md)",
+       not_live},
+      {"--startup-seconds", &options.program_limits.startup_seconds,
+       "Wall clock [s] for such a program to start and read, besides --max-seconds", at_least(0),
+       not_live},
+      {"--tolerances", into(comparison.tolerances, parse_tolerances, "1e-4,1e-8"),
+       "Bounds on the error, separated by commas; none: only --live with --iterations"},
+      {"--starts", into(comparison.starts, parse_starts, "cold"),
+       "cold (from zero), warm (only cases that have a warm start) or cold,warm", not_live},
+      {"--measure", into(comparison.measure, measure_of, "natural_map"),
+       "The error that the tolerances bound: natural_map or fclib (see below)", not_live},
+      {"--repeats", &comparison.repeats, "Interleaved repeats; tables show medians", at_least(1),
+       not_live},
+      {"--max-seconds", &comparison.max_seconds,
+       "Limit on the wall clock of one solve, preparation included [s]", above(0)},
+      {"--exact-seconds", &comparison.exact_seconds,
+       "Wall clock [s] to find each case's solution at 1e-9, for distances from it; 0: no search",
+       at_least(0), not_live},
+      {"--memory", &comparison.limits.memory_MB,
+       "Limit on the address space of one child process [MB]; 0: no limit", at_least(0), not_live},
+      {"--output DIR", &comparison.folder,
+       "Folder of the results (default: results/compare; with --live results/compare_live)"},
+      {"--no-report", &options.report, "Draws no figures and no page", not_live},
+      {"--quiet", &options.is_quiet, "Prints nothing but failures"}};
 }
 
 }  // namespace
 
 Command compare_command() {
   const auto options = std::make_shared<CompareRequest>();
-  CompareOptions& comparison = options->comparison;
-  comparison.exact_seconds = 5.0;
-  comparison.folder.clear();
-  const Rule not_live = excludes("--live");  // whose solvers work inside the step
-  Command command{
+  options->comparison.exact_seconds = 5.0;
+  return {
       "compare",
       "Compares backends (solvers) on identical problems: accuracy against cost, figures, a page",
-      {{"--solvers", into(comparison.solvers, parse_solvers, "all"),
-        "Names of backends, separated by commas; all; or none (external programs alone)"},
-       {"--external NAME=COMMAND", &options->external,
-        "Adds a program that solves, or FILE.toml with a list of them (docs/manual/external.md)",
-        not_live},
-       {"--startup-seconds", &options->program_limits.startup_seconds,
-        "Wall clock [s] for such a program to start and read, besides --max-seconds", at_least(0),
-        not_live},
-       {"--tolerances", into(comparison.tolerances, parse_tolerances, "1e-4,1e-8"),
-        "Bounds on the error, separated by commas; none: only --live with --iterations"},
-       {"--starts", into(comparison.starts, parse_starts, "cold"),
-        "cold (from zero), warm (only cases that have a warm start) or cold,warm", not_live},
-       {"--measure", into(comparison.measure, measure_of, "natural_map"),
-        "The error that the tolerances bound: natural_map or fclib (see below)", not_live},
-       {"--repeats", &comparison.repeats, "Interleaved repeats; tables show medians", at_least(1),
-        not_live},
-       {"--max-seconds", &comparison.max_seconds,
-        "Limit on the wall clock of one solve, preparation included [s]", above(0)},
-       {"--exact-seconds", &comparison.exact_seconds,
-        "Wall clock [s] to find each case's solution at 1e-9, for distances from it; 0: no search",
-        at_least(0), not_live},
-       {"--memory", &comparison.limits.memory_MB,
-        "Limit on the address space of one child process [MB]; 0: no limit", at_least(0), not_live},
-       {"--output DIR", &comparison.folder,
-        "Folder of the results (default: results/compare; with --live results/compare_live)"},
-       {"--no-report", &options->report, "Draws no figures and no page", not_live},
-       {"--quiet", &options->is_quiet, "Prints nothing but failures"}},
+      words_of(*options),
       [options] { return compare(*options); },
       {compare_diff_command(),
        merging_command("merge",
@@ -355,9 +353,6 @@ Command compare_command() {
        merging_command("ranking", "Ranks backends: what each solves, how fast; a page and a table",
                        "results/ranking", "index.html", write_ranking),
        collect_command()}};
-  const std::vector<Word> first = first_words(*options);
-  command.words.insert(command.words.begin(), first.begin(), first.end());
-  return command;
 }
 
 }  // namespace ballast

@@ -82,8 +82,8 @@ std::string check_problem(const std::string& file) {
   if (problem.has_delassus)
     text += printed(", W with %ld entries", static_cast<long>(problem.delassus.w.nonZeros()));
   if (problem.contact_count() > 0) {
-    const auto [low, high] = std::minmax_element(problem.friction.begin(), problem.friction.end());
-    text += printed(", friction %g to %g", *low, *high);
+    const auto [low, high] = std::ranges::minmax(problem.friction);
+    text += printed(", friction %g to %g", low, high);
   }
   return text;
 }
@@ -98,11 +98,10 @@ std::string check_checkpoint(const std::string& file) {
 
 /// Describes the content of the file, by its suffix.
 std::string check(const std::string& file, const CheckOptions& options) {
-  std::filesystem::path path = file;
+  fs::path path = file;
   if (!path.has_filename()) path = path.parent_path();  // a folder, written with its slash
   std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (suffix == ".toml") return check_scene(file, options);
   if (suffix == ".obj" || suffix == ".stl") return check_mesh(file, options);
   if (suffix == ".hdf5" || suffix == ".h5" || suffix == ".dat") return check_problem(file);

@@ -44,8 +44,7 @@ std::string command_that_goes_on() {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
   if (!is_given("--continue") && !is_given("--deposit-only")) words.push_back("--continue");
-  return "cd " + shell_quoted(std::filesystem::current_path().string()) + " && " +
-         shell_line(words);
+  return "cd " + shell_quoted(fs::current_path().string()) + " && " + shell_line(words);
 }
 
 /// Draws the run's page where it is asked for, unless a finished run has it; prints where the
@@ -89,16 +88,15 @@ ExitCode run_scene(RunRequest& request) {
   // more threads than cores only wait for each other
   request.run.threads = std::min(request.run.threads, available_cores());
   const RunEnd end = run(request.run);
-  ExitCode code = end.code;
-  if (code == ExitCode::ok && !request.run.deposit_only) {
-    const RunData data = read_run_data(end.folder);
-    show_results(end, request, data.facts.has_packing);
-    code = tell_trust(data, request);
-  }
-  if (end.code != ExitCode::ok)
+  if (end.code != ExitCode::ok) {
     std::cerr << "ballast: " << request.run.scene
               << ": stopped before its end; --continue goes on with it" << std::endl;
-  return code;
+    return end.code;
+  }
+  if (request.run.deposit_only) return ExitCode::ok;
+  const RunData data = read_run_data(end.folder);
+  show_results(end, request, data.facts.has_packing);
+  return tell_trust(data, request);
 }
 
 struct PlanRequest {

@@ -277,11 +277,8 @@ ExternalAnswer answer_to(const ExternalRequest& request, const MakeSolver& make)
   try {
     SolverRun run = SolverRunner().run(*solver, request.problem, request.start, budget);
     answer.status = static_cast<int>(run.solved.reason);
-    answer.impulses = std::move(run.solved.impulses);
-    answer.iterations = run.solved.iterations;
-    answer.own_residual = run.solved.own_residual;
+    answer.solved = std::move(run.solved);
     answer.seconds = run.prepare_seconds + run.solve_seconds;
-    answer.history = std::move(run.solved.history);
   } catch (const UnsupportedProblem& error) {
     std::cerr << error.what() << '\n';
     answer.status = ExternalAnswer::unsupported;

@@ -202,7 +202,7 @@ void take_friction(MadeWord& word, Settings& settings) {
   word.take("friction_max", settings.friction_max, settings.friction_min);
 }
 
-void add_known_cases(MadeWord& word, std::vector<CompareCase>& cases) {
+void add_known_cases(MadeWord word, std::vector<CompareCase>& cases) {
   if (!word.what().empty()) word.fail(word.what() + ": expected name=value");
   KnownSolutionSettings settings;
   word.take("bodies", settings.bodies, 2);
@@ -232,7 +232,7 @@ CompareCase pile_case(const PileSettings& s) {
 }
 
 /// pile: takes every setting from the word. pile:family draws all of them from successive seeds.
-void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
+void add_piles(MadeWord word, std::vector<CompareCase>& cases) {
   PileSettings settings;
   if (word.what() == "family") {
     settings.contacts = 1000;  // the most
@@ -257,7 +257,7 @@ void add_piles(MadeWord& word, std::vector<CompareCase>& cases) {
   add_seeded(word, settings, pile_case, cases);
 }
 
-void add_stress_cases(MadeWord& word, std::vector<CompareCase>& cases) {
+void add_stress_cases(MadeWord word, std::vector<CompareCase>& cases) {
   if (word.what() != "all") word.fail("expected stress:all");
   word.finish();
   for (const StressProblem& stress : stress_problems()) {
@@ -286,15 +286,14 @@ std::vector<CompareCase> compare_cases(const std::vector<std::string>& words) {
   std::vector<CompareCase> cases;
   for (const std::string& word : words) {
     const auto begins = [&](const char* kind) { return word.starts_with(kind); };
-    if (begins("known:") || begins("pile:") || begins("stress:")) {
-      MadeWord made(word);
-      const auto add = begins("known:")  ? add_known_cases
-                       : begins("pile:") ? add_piles
-                                         : add_stress_cases;
-      add(made, cases);
-    } else {
+    const auto add = begins("known:")    ? add_known_cases
+                     : begins("pile:")   ? add_piles
+                     : begins("stress:") ? add_stress_cases
+                                         : nullptr;
+    if (add)
+      add(MadeWord(word), cases);
+    else
       for (const FoundProblem& found : find_problems(word)) cases.push_back(file_case(found.file));
-    }
   }
   std::map<std::string, int> seen;
   for (CompareCase& c : cases)

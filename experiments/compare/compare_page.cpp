@@ -8,8 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/measure/curve_fit.hpp"
-#include "experiments/page/html.hpp"
-#include "experiments/page/plot.hpp"
 #include "experiments/run_page/report.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/program.hpp"
@@ -74,6 +72,14 @@ page::Table failures_table(std::span<const CompareRow> rows) {
                            row.solver.empty() ? page::Text() : page::number(row.error, 2)});
   }
   return result;
+}
+
+/// Reads manifest.json of a folder.
+RunData read_origin(const fs::path& folder) {
+  RunData data;
+  const fs::path file = folder / "manifest.json";
+  data.stored_manifest = std::make_shared<const Json>(json_object(read_whole_file(file), file));
+  return data;
 }
 
 /// The summary of a comparison in its manifest, with its options.
@@ -219,25 +225,18 @@ std::string compare_summary(std::span<const CompareRow> rows) {
 }
 
 void write_compare_page(const fs::path& folder, std::span<const CompareRow> rows) {
-  const RunData data = read_origin(folder);
   std::vector<CompareRow> tried;
   for (const CompareRow& row : rows)
     if (row.verdict != Verdict::unreadable) tried.push_back(row);
-  write_with_origin(compare_page(data, rows, tried), data, folder / "compare.html");
+  write_with_origin(compare_page(read_origin(folder), rows, tried), folder / "compare.html");
 }
 
-RunData read_origin(const fs::path& folder) {
-  RunData data;
-  const fs::path file = folder / "manifest.json";
-  data.stored_manifest = std::make_shared<const Json>(json_object(read_whole_file(file), file));
-  return data;
-}
-
-void write_with_origin(page::Page page, const RunData& data, const fs::path& file) {
+void write_with_origin(page::Page page, const fs::path& file) {
+  const RunData data = read_origin(file.parent_path());
   if (const std::string made = made_by(data); !made.empty()) page.lede.push_back(made);
   page.add({"provenance", "Program and machine", {provenance_table(data)}});
   page::draw_pictures(page, file.parent_path());
-  page::write_html_file(file, page);
+  write_whole_file(file, html_of(page));
 }
 
 RepeatedSolve over_repeats(const std::vector<const CompareRow*>& repeats) {

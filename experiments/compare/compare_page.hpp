@@ -23,12 +23,10 @@ std::string compare_summary(std::span<const CompareRow> rows);
 /// histories, the command that makes a row again. Needs at least one row.
 page::Answers comparison_answers(const RunData& data, std::span<const CompareRow> rows);
 
-/// Reads manifest.json of a folder. Throws Error where it is missing or holds no JSON object.
-RunData read_origin(const std::filesystem::path& folder);
-
-/// Says on `page` which program and machine made it, draws its figures into figures/ beside `file`,
-/// and writes it there as HTML. Throws Error.
-void write_with_origin(page::Page page, const RunData& data, const std::filesystem::path& file);
+/// Says on `page` which program and machine made it, as in manifest.json beside `file`, draws its
+/// figures into figures/ there, and writes it as HTML. Throws Error, also where the manifest is
+/// missing or holds no JSON object.
+void write_with_origin(page::Page page, const std::filesystem::path& file);
 
 // Rows -> backends side by side: medians over repeats, means over cases. The page itself computes
 // those of the reader's selection (answers/statistics.js).

@@ -55,8 +55,9 @@ class Comparison {
     create_folder(options_.folder / "rows");
     count_ = cases_.size() * options_.tolerances.size() * options_.starts.size() *
              options_.solvers.size() * static_cast<size_t>(options_.repeats);
-    for (int repeat = 0; repeat < options_.repeats && keep_going_; ++repeat)
-      for (size_t c = 0; c < cases_.size() && keep_going_; ++c) try_case(cases_[c], repeat);
+    for (int repeat = 0; repeat < options_.repeats; ++repeat)
+      for (const CompareCase& tried : cases_)
+        if (!InterruptGuard::requested()) try_case(tried, repeat);
     write_whole_file(options_.folder / "results.csv", compare_csv(rows_));
     describe(manifest);
     manifest.write(options_.folder / "manifest.json");
@@ -97,7 +98,7 @@ class Comparison {
     for (const double tolerance : options_.tolerances)
       for (const StartKind start : starts)
         for (const ComparedSolver& solver : options_.solvers) {
-          if (!keep_going_) return;
+          if (InterruptGuard::requested()) return;
           ++done_;
           row.solver = solver.name;
           row.law = name_of(solver.law);
@@ -109,7 +110,7 @@ class Comparison {
   }
 
   void add(CompareRow row, bool was_stored) {
-    keep_going_ = progress_(row, was_stored, done_, count_);
+    progress_(row, was_stored, done_, count_);
     rows_.push_back(std::move(row));
   }
 
@@ -147,8 +148,7 @@ class Comparison {
       else
         solve_case(solver, loaded, options_.limits, row);
       // an interrupt reaches the child as well, so its answer is no result
-      keep_going_ = !InterruptGuard::requested();
-      if (!keep_going_) return;
+      if (InterruptGuard::requested()) return;
       write_whole_file(file, to_json(row));
     }
     if (row.verdict != Verdict::solved) unsolved_.insert(identity);
@@ -170,7 +170,8 @@ class Comparison {
 
   void describe(Manifest& manifest) const {
     manifest.summary("rows", static_cast<double>(rows_.size()));
-    manifest.summary("complete", keep_going_ ? "yes" : "no: stopped; the same command goes on");
+    manifest.summary("complete",
+                     InterruptGuard::requested() ? "no: stopped; the same command goes on" : "yes");
     manifest.summary("measure", name_of(options_.measure));
     manifest.summary("max_seconds", options_.max_seconds);
     manifest.summary("memory_MB", options_.limits.memory_MB);
@@ -192,7 +193,6 @@ class Comparison {
   std::set<std::string> unsolved_, unreadable_;
   std::map<std::string, CompareRow> late_;  ///< the loosest timeout of a case, backend and start
   size_t done_ = 0, count_ = 0;
-  bool keep_going_ = true;
 };
 
 }  // namespace
@@ -224,18 +224,18 @@ Reference find_reference(const LoadedCase& loaded, double max_seconds) {
   return best;
 }
 
-void find_exact(LoadedCase& loaded, double max_seconds, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / (loaded.facts.content + ".exact");
-  if (is_exact(loaded)) return;
-  if (max_seconds > 0.0 && path_exists(file)) loaded.exact = impulses_of(read_whole_file(file));
+void find_exact(LoadedCase& loaded, double max_seconds, const fs::path& folder) {
   if (is_exact(loaded)) return;
   loaded.exact.resize(0);
   if (!(max_seconds > 0.0)) return;
-  Reference found = find_reference(loaded, max_seconds);
+  const fs::path file = folder / (loaded.facts.content + ".exact");
+  if (path_exists(file)) loaded.exact = impulses_of(read_whole_file(file));
+  if (is_exact(loaded)) return;
+  const Reference found = find_reference(loaded, max_seconds);
+  loaded.exact = found.is_exact ? found.impulses : Impulses();
   if (!found.is_exact) return;
   create_folder(folder);
-  write_whole_file(file, bytes_of(found.impulses));
-  loaded.exact = std::move(found.impulses);
+  write_whole_file(file, bytes_of(loaded.exact));
 }
 
 std::vector<CompareRow> run_comparison(const std::vector<CompareCase>& cases,

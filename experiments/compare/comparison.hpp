@@ -42,16 +42,16 @@ struct CompareOptions {
   std::string command;           ///< the command line, for the manifest
 };
 
-/// Called after each attempt, stored rows included: `done` of `count`. Returning false stops the
-/// comparison; the rows so far stay.
+/// Called after each attempt, stored rows included: `done` of `count`.
 using CompareProgress =
-    std::function<bool(const CompareRow& row, bool was_stored, size_t done, size_t count)>;
+    std::function<void(const CompareRow& row, bool was_stored, size_t done, size_t count)>;
 
 /// Tries every combination without a row, and returns the rows in order: repeat, case, tolerance,
 /// start, solver. Where a solver ran out of time to a looser tolerance, a tighter one is not tried:
-/// its row is a copy with a note. results.csv and manifest.json are written at the end and when
-/// stopped. A case that cannot be loaded is one row (Verdict::unreadable, with the reason as its
-/// note), which is tried again the next time; so is a row whose file is damaged.
+/// its row is a copy with a note. An interrupt (InterruptGuard) stops it; the rows so far stay.
+/// results.csv and manifest.json are written at the end and when stopped. A case that cannot be
+/// loaded is one row (Verdict::unreadable, with the reason as its note), which is tried again the
+/// next time; so is a row whose file is damaged.
 std::vector<CompareRow> run_comparison(const std::vector<CompareCase>& cases,
                                        const CompareOptions& options,
                                        const CompareProgress& progress);
@@ -63,7 +63,7 @@ std::string binary_key();
 /// "libopenblasp-r0.3.21.so"; "none" without.
 std::string loaded_blas();
 
-// The lists on the command lines of `ballast compare` and `ballast bench` -> settings. A wrong list
+// The lists on the command lines of `ballast compare` and `ballast solve` -> settings. A wrong list
 // throws std::invalid_argument, which says what was expected.
 
 /// "pgs,nncg", "none", or "all": those that were built. Throws UnknownSolver, MissingSolver.

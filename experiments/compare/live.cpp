@@ -76,9 +76,7 @@ Start make_start(const LiveOptions& options, const Scene& scene) {
   const RunFolder folder(run_options.output);
   Start start;
   start.system = system_of_run(folder.path(), start.state);
-  Checkpoint checkpoint = read_checkpoint(folder.checkpoint());
-  start.memory = std::move(checkpoint.memory);
-  start.state = std::move(checkpoint.state);
+  start.memory = read_checkpoint(folder.checkpoint()).memory;
   start.key = binary_key() + '|' + content_key(read_whole_file(folder.checkpoint()));
   if (scene.grains)
     start.control_volume = box_control_volume(
@@ -193,15 +191,14 @@ std::string Trajectory::label() const {
          (iterations > 0 ? printed(" %d iterations", iterations) : printed(" %g", tolerance));
 }
 
-int reference_of(const std::vector<Trajectory>& trajectories) {
-  int best = -1;
+const Trajectory* LiveComparison::reference() const {
+  const Trajectory* best = nullptr;
   double least = HUGE_VAL;
-  for (size_t k = 0; k < trajectories.size(); ++k) {
-    const Trajectory& t = trajectories[k];
+  for (const Trajectory& t : trajectories) {
     const bool is_exact = t.law == name_of(ContactLaw::coulomb);
     if (!t.is_complete() || !is_exact || !(t.mean_error() < least)) continue;
     least = t.mean_error();
-    best = static_cast<int>(k);
+    best = &t;
   }
   return best;
 }
@@ -218,7 +215,7 @@ std::vector<double> distances(const Trajectory& trajectory, const Trajectory& re
 }
 
 LiveComparison run_live(const LiveOptions& options,
-                        const std::function<bool(const Trajectory&)>& said) {
+                        const std::function<void(const Trajectory&)>& said) {
   LiveComparison comparison;
   comparison.scene = resolve_run(options.scene, options.overrides).scene;
   comparison.velocity_scale = velocity_scale(comparison.scene);
@@ -232,17 +229,15 @@ LiveComparison run_live(const LiveOptions& options,
     wanted.emplace_back().iterations = count;
     wanted.back().tolerance = not_known;
   }
-  bool keep_going = true;
   for (Trajectory& trajectory : wanted)
     for (const ComparedSolver& solver : options.solvers) {
-      if (!keep_going || InterruptGuard::requested()) break;
+      if (InterruptGuard::requested()) break;
       trajectory.solver = solver.name;
       trajectory.law = name_of(solver.law);
       comparison.trajectories.push_back(
           trajectory_of(options, comparison.scene, start, solver, trajectory));
-      keep_going = said(comparison.trajectories.back());
+      said(comparison.trajectories.back());
     }
-  comparison.reference = reference_of(comparison.trajectories);
   comparison.command = command_of(options);
   return comparison;
 }

@@ -1,15 +1,17 @@
 #pragma once
 // The closed loop: one scene is stepped from one start under several backends and tolerances, to
-// see their effect on the physics.
+// see their effect on the physics; its page, figures and tables.
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "experiments/compare/comparison.hpp"
+#include "experiments/page/page.hpp"
 #include "experiments/record/progress.hpp"
 #include "experiments/step/step_record.hpp"
 #include "problems/scene/scene.hpp"
@@ -35,9 +37,6 @@ struct Trajectory {
   std::string label() const;    ///< "pgs 0.0001", "nncg 50 iterations"
 };
 
-/// The index of the complete Coulomb trajectory of least mean error, the first of equals; -1: none.
-int reference_of(const std::vector<Trajectory>& trajectories);
-
 /// rms over grains of the distance from the reference at each frame that both have [m].
 std::vector<double> distances(const Trajectory& trajectory, const Trajectory& reference);
 
@@ -62,19 +61,46 @@ struct LiveComparison {
   Scene scene;
   double velocity_scale = 1.0;  ///< [m/s]: tolerances are relative to it
   bool has_driven_wall = false;
-  int reference = -1;  ///< reference_of(trajectories)
   std::vector<Trajectory> trajectories;
-  const Trajectory* reference_trajectory() const {
-    return reference < 0 ? nullptr : &trajectories[static_cast<size_t>(reference)];
-  }
+  /// The complete Coulomb trajectory of least mean error, the first of equals; null: none.
+  const Trajectory* reference() const;
   /// The command that makes the trajectories again, but for --solvers, --tolerances, --iterations.
   std::string command;
 };
 
 /// Steps the scene under every backend to every tolerance, and by every number of iterations, each
-/// in a child process. Stored trajectories are not made again. `said` is called with each
-/// trajectory; returning false stops the comparison. Throws Error.
+/// in a child process, until all are made or an interrupt comes. Stored trajectories are not made
+/// again. `said` is called with each trajectory. Throws Error.
 LiveComparison run_live(const LiveOptions& options,
-                        const std::function<bool(const Trajectory&)>& said);
+                        const std::function<void(const Trajectory&)>& said);
+
+// The output (live_page.cpp).
+
+/// A number that sums up a trajectory: a column of live.csv and, with a head, of the page's table.
+struct LiveNumber {
+  const char* name;  ///< in live.csv, in SI units, or in ms where it says so
+  const char* head;  ///< of the page's column, in the notation of page::marked; null: no column
+  const char* unit;  ///< on the page
+  double factor;     ///< from the unit in live.csv to that on the page
+  int digits;        ///< on the page
+  /// Returns NaN where it is not known or does not exist (no steps, wall, grains or reference).
+  double (*of)(const Trajectory& trajectory, const LiveComparison& comparison);
+};
+std::span<const LiveNumber> live_numbers();
+
+/// One row for each trajectory.
+std::string live_csv(const LiveComparison& comparison);
+
+/// Figures with a line for every trajectory; the last one is error against cost, with a line for
+/// every backend. Figures of the wall need a driven wall, distances need a reference. A figure
+/// without known values has no panels.
+std::vector<page::Picture> live_figures(const LiveComparison& comparison);
+
+/// Reads manifest.json of `folder`; writes live.csv, trajectories as steps-<label>.csv,
+/// figures/*.svg and live.html there. Throws Error.
+void write_live_page(const std::filesystem::path& folder, const LiveComparison& comparison);
+
+/// The k-th backend's line: eight colours, then the same dashed, then thin.
+Curve backend_curve(size_t k, const std::string& title);
 
 }  // namespace ballast

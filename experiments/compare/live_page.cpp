@@ -1,5 +1,3 @@
-#include "experiments/compare/live_page.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "experiments/compare/compare_page.hpp"
+#include "experiments/compare/live.hpp"
 #include "experiments/measure/curve_fit.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
@@ -48,7 +47,7 @@ double mean_step_seconds(const Trajectory& t) {
 }
 
 double last_distance(const Trajectory& t, const LiveComparison& c) {
-  const Trajectory* reference = c.reference_trajectory();
+  const Trajectory* reference = c.reference();
   if (!reference) return not_known;
   const std::vector<double> d = distances(t, *reference);
   return d.empty() ? not_known : d.back();
@@ -105,8 +104,7 @@ Curve trajectory_curve(const LiveComparison& comparison, const Trajectory& traje
   const auto backend = std::ranges::find(backends, trajectory.backend()) - backends.begin();
   const auto looseness = std::distance(limits.begin(), limits.find(limit_of(trajectory)));
   Curve curve = backend_curve(static_cast<size_t>(backend), trajectory.label());
-  curve.dashed = looseness > 0;
-  curve.fineness = static_cast<int>(std::clamp<std::ptrdiff_t>(looseness, 1, 3)) - 1;
+  curve.dash = static_cast<int>(std::min<std::ptrdiff_t>(looseness, 3));
   curve.width = looseness == 0 ? 2.0 : 1.6;
   return curve;
 }
@@ -145,7 +143,7 @@ page::Table numbers_table(const LiveComparison& comparison) {
   table.is_number.resize(table.head.size(), true);
   for (const Trajectory& t : comparison.trajectories) {
     page::Text label = t.label();
-    if (&t == comparison.reference_trajectory()) label += page::Text(" (reference)", page::strong);
+    if (&t == comparison.reference()) label += page::Text(" (reference)", page::strong);
     std::vector<page::Text> line{label, t.law, t.ended};
     for (const LiveNumber& number : shown_numbers)
       if (number.head)
@@ -203,7 +201,7 @@ std::string live_csv(const LiveComparison& comparison) {
 
 std::vector<page::Picture> live_figures(const LiveComparison& comparison) {
   using R = StepRecord;
-  const Trajectory* reference = comparison.reference_trajectory();
+  const Trajectory* reference = comparison.reference();
   std::vector<page::Picture> pictures;
   // adds a figure with a line for every trajectory; in a difference the reference has none
   const auto add = [&](const char* name, const char* title, const char* y_label, bool log_y,
@@ -268,7 +266,7 @@ void write_live_page(const std::filesystem::path& folder, const LiveComparison& 
   figures.add(live_figures(comparison));
   page.add(figures);
   page.answers = {.is_enabled = true, .has_charts = true};
-  write_with_origin(page, read_origin(folder), folder / "live.html");
+  write_with_origin(page, folder / "live.html");
 }
 
 Curve backend_curve(size_t k, const std::string& title) {
@@ -278,7 +276,7 @@ Curve backend_curve(size_t k, const std::string& title) {
   Curve curve;
   curve.title = title;
   curve.ink = inks[k % count];
-  curve.dashed = (k / count) % 2 == 1;
+  curve.dash = static_cast<int>(k / count % 2);
   curve.width = k < 2 * count ? 1.8 : 0.9;
   return curve;
 }

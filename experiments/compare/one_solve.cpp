@@ -15,12 +15,6 @@
 namespace ballast {
 namespace {
 
-/// The report of the process that solves: its part of the row, and the input of the judge.
-struct Account {
-  CompareRow row;
-  Solved solved;  ///< reason and impulses; row.reason is the reason's name, or empty
-};
-
 SolverRun drive(Solver& solver, const LoadedCase& loaded, const SolveLimits& limits,
                 const CompareRow& row) {
   Budget budget{.tolerance = row.tolerance * loaded.facts.velocity_scale,
@@ -38,8 +32,7 @@ SolverRun drive(Solver& solver, const LoadedCase& loaded, const SolveLimits& lim
 
 /// Makes a new solver for each run, so that nothing but caches carries over.
 void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
-                      Account& account) {
-  CompareRow& row = account.row;
+                      CompareRow& row, Solved& solved) {
   double spent = 0.0;
   do {
     const Stopwatch watch;
@@ -61,25 +54,28 @@ void drive_repeatedly(const MakeSolver& make, const LoadedCase& loaded, const So
     row.solve_seconds = run.solve_seconds;
     row.history = std::move(run.solved.history);
     for (HistoryPoint& point : row.history) point.error /= loaded.facts.velocity_scale;
-    account.solved = std::move(run.solved);
-    if (!run.failure.empty()) account.solved.impulses.resize(0);
-  } while (account.solved.reason == StopReason::reached_tolerance && row.runs < limits.most_runs &&
+    solved = std::move(run.solved);
+    if (!run.failure.empty()) solved.impulses.resize(0);
+  } while (solved.reason == StopReason::reached_tolerance && row.runs < limits.most_runs &&
            spent + row.seconds() < limits.min_timing_seconds);
 }
 
-/// The child's whole work. The parent does it for an external program.
-Account solve_here(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
-                   const CompareRow& row) {
-  Account account{row, {}};
-  account.row.verdict = Verdict::unsolved;
+/// The child's whole work: fills in its part of the row, and returns the input of the judge, reason
+/// and impulses. The parent does it for an external program.
+Solved solve_here(const MakeSolver& make, const LoadedCase& loaded, const SolveLimits& limits,
+                  CompareRow& row) {
+  const CompareRow asked = row;
+  Solved solved;
+  row.verdict = Verdict::unsolved;
   // A failure drops the results of earlier runs.
   const auto fail = [&](Verdict verdict, const char* note) {
-    account = {row, {}};
-    account.row.verdict = verdict;
-    account.row.note = note;
+    solved = {};
+    row = asked;
+    row.verdict = verdict;
+    row.note = note;
   };
   try {
-    drive_repeatedly(make, loaded, limits, account);
+    drive_repeatedly(make, loaded, limits, row, solved);
   } catch (const UnsupportedProblem& error) {
     fail(Verdict::unsupported, error.what());
   } catch (const LostProcess& error) {
@@ -89,7 +85,7 @@ Account solve_here(const MakeSolver& make, const LoadedCase& loaded, const Solve
   } catch (const std::exception& error) {
     fail(Verdict::unsolved, error.what());
   }
-  return account;
+  return solved;
 }
 
 /// Sets the errors of a row without an answer to NaN, so that it has none instead of a small one.
@@ -98,15 +94,16 @@ void clear_measures(CompareRow& row) {
   row.judged = {.natural_map_rms = row.error, .natural_map_max = row.error, .fclib = row.error};
 }
 
-/// Fills in the judge's measures of an answer, and the verdict from them and the backend's reason.
-void judge(const LoadedCase& loaded, const Account& account, CompareRow& row) {
+/// Fills in the judge's measures of an answer, and the verdict from them and the backend's reason,
+/// whose name is row.reason, unless that is empty.
+void judge(const LoadedCase& loaded, Solved solved, CompareRow& row) {
   clear_measures(row);
-  const Impulses& impulses = account.solved.impulses;
-  const StopReason reason = account.solved.reason;
-  if (impulses.size() != loaded.problem.row_count()) return;
+  if (solved.impulses.size() != loaded.problem.row_count()) return;
   const double scale = loaded.facts.velocity_scale;
   SolverRun run;
-  run.solved = account.solved;
+  run.solved = std::move(solved);
+  const Impulses& impulses = run.solved.impulses;
+  const StopReason reason = run.solved.reason;
   run.error = contact_error(loaded.problem, impulses);
   const ContactError& error = row.judged = run.error;
   row.worst = loaded.describe_contact(error.worst_contact);
@@ -134,11 +131,10 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
   if (!solver.external_key.empty()) {
     static_cast<void>(solver.make());  // throws where its files have no folder, which ends all
     const Stopwatch watch;
-    Account account = solve_here(solver.make, loaded, limits, row);
-    row = std::move(account.row);
+    Solved solved = solve_here(solver.make, loaded, limits, row);
     row.peak_memory_MB = std::nan("");
     if (row.verdict == Verdict::timeout) row.solve_seconds = watch.seconds();
-    return judge(loaded, account, row);
+    return judge(loaded, std::move(solved), row);
   }
   // Backends look at the clock between iterations, never in prepare(): the child has some grace.
   const double most_seconds = 1.25 * row.max_seconds + 2.0 + 2.0 * limits.min_timing_seconds;
@@ -146,12 +142,13 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
     const auto bytes = static_cast<rlim_t>(limits.memory_MB * 1048576.0);
     const rlimit limit{bytes, bytes};
     if (bytes > 0) setrlimit(RLIMIT_AS, &limit);
-    Account account = solve_here(solver.make, loaded, limits, row);
-    account.row.peak_memory_MB = std::max(peak_memory_MB(), peak_memory_MB(RUSAGE_CHILDREN));
+    CompareRow made = row;
+    const Solved solved = solve_here(solver.make, loaded, limits, made);
+    made.peak_memory_MB = std::max(peak_memory_MB(), peak_memory_MB(RUSAGE_CHILDREN));
     Packer packer;
-    packer.text(to_json(account.row));
-    packer.number(account.solved.reason);
-    packer.list(account.solved.impulses);
+    packer.text(to_json(made));
+    packer.number(solved.reason);
+    packer.list(solved.impulses);
     return packer.bytes();
   });
   if (child.end != ChildEnd::complete) {
@@ -165,15 +162,15 @@ void solve_case(const ComparedSolver& solver, const LoadedCase& loaded, const So
     return;
   }
   const std::string origin = "ballast compare: a child's answer";
-  Account account;
+  Solved solved;
   std::string text;
   Unpacker unpacker(child.answer, origin);
   unpacker.text(text);
-  unpacker.number(account.solved.reason);
-  unpacker.list(account.solved.impulses);
+  unpacker.number(solved.reason);
+  unpacker.list(solved.impulses);
   unpacker.finish();
   row = compare_row_of_json(text, origin, row);
-  judge(loaded, account, row);
+  judge(loaded, std::move(solved), row);
 }
 
 }  // namespace ballast

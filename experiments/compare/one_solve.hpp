@@ -2,8 +2,6 @@
 // One attempt in a process of its own, under limits of time and memory: a solver that crashes,
 // hangs or takes too much memory becomes a row.
 
-#include <functional>
-#include <memory>
 #include <string>
 
 #include "experiments/compare/compare_row.hpp"
@@ -11,8 +9,6 @@
 #include "solvers/seam/run_solver.hpp"
 
 namespace ballast {
-
-using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 
 struct SolveLimits {
   int max_iterations = 1 << 30;

@@ -43,8 +43,8 @@ inline constexpr int fewest_runs = 5, resamples = 200;
 /// fastest; equal means share their mean rank. Without members all is NaN. The seed is fixed.
 std::vector<Estimate> ranks_of(const TriedCases& tried, const std::vector<Eigen::Index>& members);
 
-/// Writes the public table of a collection's comparison (ranking_page.cpp) into `folder`, whose
-/// manifest.json says which program and machine made the rows. Throws Error.
+/// Writes the public table of a collection's comparison into `folder`, whose manifest.json says
+/// which program and machine made the rows. Throws Error.
 ///   index.html   the order of the backends, the held part apart; each family; how far the order
 ///                holds; what each backend fails on; the families
 ///   ranking.md   the same page

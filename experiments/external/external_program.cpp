@@ -215,12 +215,9 @@ class ExternalSolver final : public Solver {
                             .max_iterations = budget.max_iterations,
                             .max_seconds = budget.max_seconds};
     ExternalAnswer answer = program_->ask(request);
-    Solved solved;
-    solved.impulses = std::move(answer.impulses);
+    Solved solved = std::move(answer.solved);
     solved.reason = static_cast<StopReason>(answer.status);
-    solved.iterations = answer.iterations;
-    solved.own_residual = answer.own_residual;
-    if (budget.keep_history) solved.history = std::move(answer.history);
+    if (!budget.keep_history) solved.history.clear();
     // The program's own time is used only where it does not exceed ours.
     const double all = watch.seconds();
     if (answer.seconds >= 0.0 && answer.seconds <= all)
@@ -293,13 +290,13 @@ void write_answer(const std::filesystem::path& path, const ExternalRequest& requ
   add_number(file, answered + "protocol", external_protocol);
   add_number(file, answered + "id", request.id);
   add_number(file, answered + "status", answer.status);
-  add_number(file, answered + "iterations", answer.iterations);
-  add_number(file, answered + "residual", answer.own_residual);
+  add_number(file, answered + "iterations", answer.solved.iterations);
+  add_number(file, answered + "residual", answer.solved.own_residual);
   add_number(file, answered + "seconds", answer.seconds);
-  if (answer.impulses.size() == request.problem.row_count())
-    file.add(answered + "r", as_vector(three_rows(request.problem, answer.impulses)));
+  if (answer.solved.impulses.size() == request.problem.row_count())
+    file.add(answered + "r", as_vector(three_rows(request.problem, answer.solved.impulses)));
   std::vector<double> history;
-  for (const HistoryPoint& point : answer.history)
+  for (const HistoryPoint& point : answer.solved.history)
     history.insert(history.end(),
                    {static_cast<double>(point.iteration), point.seconds, point.error});
   file.add(answered + "history", history);
@@ -319,19 +316,19 @@ ExternalAnswer read_answer(const std::filesystem::path& path, const ExternalRequ
                                  static_cast<int>(ExternalAnswer::out_of_memory)));
   answer.status = static_cast<int>(status);
   if (!answer.is_solution()) return answer;
-  answer.impulses = read_impulses(file, answered + "r", request.problem);
+  Solved& solved = answer.solved;
+  solved.impulses = read_impulses(file, answered + "r", request.problem);
   // The other entries are optional.
   const double iterations = optional_number(file, answered + "iterations", 0.0);
   if (iterations < 0.0) file.fail(answered + "iterations is negative");
-  answer.iterations = static_cast<int>(std::min<double>(iterations, request.max_iterations));
-  answer.own_residual = optional_number(file, answered + "residual", 0.0);
+  solved.iterations = static_cast<int>(std::min<double>(iterations, request.max_iterations));
+  solved.own_residual = optional_number(file, answered + "residual", 0.0);
   answer.seconds = optional_number(file, answered + "seconds", -1.0);
-  answer.history = read_history(file);
+  solved.history = read_history(file);
   return answer;
 }
 
-std::function<std::unique_ptr<Solver>()> external_solver(const ExternalCommand& command,
-                                                         const ExternalLimits& limits) {
+MakeSolver external_solver(const ExternalCommand& command, const ExternalLimits& limits) {
   // A program that is not asked makes no folder.
   const auto shared = std::make_shared<std::shared_ptr<ExternalProgram>>();
   return [shared, command, limits]() -> std::unique_ptr<Solver> {

@@ -29,11 +29,8 @@ struct ExternalAnswer {
   /// A StopReason, or one of these two, which come without any other data.
   static constexpr int unsupported = 5, out_of_memory = 6;
   int status = static_cast<int>(StopReason::numerical_failure);
-  Impulses impulses;  ///< rows as in the problem
-  int iterations = 0;
-  double own_residual = 0.0;
+  Solved solved;  ///< of it impulses (rows as in the problem), iterations, own_residual, history
   double seconds = -1.0;  ///< of the method alone, on its own clock; below 0: not given
-  std::vector<HistoryPoint> history;
 
   /// True where something was solved: there are impulses.
   bool is_solution() const { return status < static_cast<int>(StopReason::numerical_failure); }
@@ -69,6 +66,8 @@ std::vector<ExternalCommand> external_commands(const std::vector<std::string>& w
 /// Key of the command and of the files that it names: an edit of the script changes it.
 std::string key_of(const ExternalCommand& command);
 
+using MakeSolver = std::function<std::unique_ptr<Solver>()>;
+
 /// Makes backends that, for each solve, start the program or tell the one that is running. All of
 /// one maker share one program and one folder of files, in the process that asked first; these end
 /// with the maker. Solved::startup_seconds is all time outside the method: starting, writing and
@@ -76,7 +75,6 @@ std::string key_of(const ExternalCommand& command);
 ///
 /// solve() throws LostProcess: the program died, or was killed because it did not answer in time;
 /// UnsupportedProblem, std::bad_alloc: it says so; Error: it failed, or its answer is invalid.
-std::function<std::unique_ptr<Solver>()> external_solver(const ExternalCommand& command,
-                                                         const ExternalLimits& limits);
+MakeSolver external_solver(const ExternalCommand& command, const ExternalLimits& limits);
 
 }  // namespace ballast

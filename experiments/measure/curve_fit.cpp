@@ -236,10 +236,7 @@ void Points::add(double at, const SampleMean& mean) {
 
 PowerFit fit_power(std::span<const double> x, std::span<const double> y) {
   const auto logarithm = [](double value) { return value > 0.0 ? std::log(value) : not_known; };
-  std::vector<double> log_x, log_y;
-  for (const double value : x) log_x.push_back(logarithm(value));
-  for (const double value : y) log_y.push_back(logarithm(value));
-  const LineFit line = fit_line(log_x, log_y);
+  const LineFit line = fit_line(values_of(x, logarithm), values_of(y, logarithm));
   return {line.slope, std::exp(line.offset), student_t95(line.samples - 2) * line.slope_error,
           line.r2, line.samples};
 }

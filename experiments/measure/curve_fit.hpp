@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -12,6 +13,14 @@
 namespace ballast {
 
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// A number of each element: a member, or what a function makes of it.
+template <class Range, class Number>
+std::vector<double> values_of(const Range& range, const Number& number) {
+  std::vector<double> values;
+  for (const auto& element : range) values.push_back(std::invoke(number, element));
+  return values;
+}
 
 /// Mean, least and largest of the finite samples.
 struct Statistics {

@@ -1,5 +1,6 @@
 #include "experiments/measure/run_data.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -49,15 +50,14 @@ void add_settings(const Scene& scene, RunFacts& facts) {
   facts.gravity = scene.gravity.norm();
   facts.velocity_scale = velocity_scale(scene);
   facts.has_packing = scene.grains.has_value();
-  facts.has_wall = facts.has_packing;
-  for (const WallSpec& wall : scene.walls)
-    if (wall.motion == WallMotion::driven) {
-      facts.has_wall = true;
-      facts.frequency = wall.load.frequency;
-      facts.f_max = wall.load.f_max;
-      facts.f_min = wall.load.f_min;
-      break;  // a step records the motion of the first driven wall
-    }
+  // a step records the motion of the first driven wall
+  const auto driven = std::ranges::find(scene.walls, WallMotion::driven, &WallSpec::motion);
+  facts.has_wall = facts.has_packing || driven != scene.walls.end();
+  if (driven != scene.walls.end()) {
+    facts.frequency = driven->load.frequency;
+    facts.f_max = driven->load.f_max;
+    facts.f_min = driven->load.f_min;
+  }
   for (const BodySpec& body : scene.bodies)
     if (body.shape)
       facts.smallest_size = std::fmin(facts.smallest_size, body.shape->circumradius());
@@ -95,9 +95,8 @@ RunFacts facts_of(const RunData& data) {
   facts.height = summary_number(data, "packing_top_m");
   facts.solid_fraction_initial = summary_number(data, "solid_fraction_initial");
   if (!facts.has_packing) return facts;
-  const double weight = facts.grain_mass * facts.gravity;
-  facts.f_max *= weight;
-  facts.f_min *= weight;
+  facts.f_max *= facts.weight();
+  facts.f_min *= facts.weight();
   facts.wall_mass *= facts.grain_mass;
   return facts;
 }

@@ -29,6 +29,11 @@ struct RunData {
   const nlohmann::ordered_json& manifest() const;
 };
 
+struct MeasuredRun {
+  RunData data;
+  RunSummary summary;  ///< of these data
+};
+
 /// Parses the JSON object in the text of a file. Throws Error naming the file.
 nlohmann::ordered_json json_object(const std::string& text, const std::filesystem::path& file);
 

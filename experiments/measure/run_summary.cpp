@@ -57,7 +57,7 @@ EnergyBalance energy_balance(std::span<const StepRecord> steps) {
 }
 
 FirstContraction first_contraction(std::span<const StepRecord> steps, double frequency) {
-  const double end = std::max(1.0 / frequency, 0.3);
+  const double end = transient_end(frequency);
   FirstContraction contraction;
   std::vector<double> x;
   for (const StepRecord& step : steps)
@@ -68,12 +68,6 @@ FirstContraction first_contraction(std::span<const StepRecord> steps, double fre
       steps, [&](const StepRecord& step) { return -step.wall_x >= 0.9 * contraction.size; });
   if (nearly_there != steps.end()) contraction.time90 = nearly_there->time;
   return contraction;
-}
-
-Statistics over_periods(const std::vector<WallPeriod>& periods, double WallPeriod::*value) {
-  std::vector<double> values;
-  for (const WallPeriod& period : periods) values.push_back(period.*value);
-  return statistics(values);
 }
 
 /// Eq. 4 over the whole periods within a window: (rho(t_b) - rho(t_a)) / (reference (t_b - t_a))
@@ -93,7 +87,6 @@ double compaction_rate(std::span<const StepRecord> steps, double frequency, doub
 Compaction compaction_of(std::span<const StepRecord> steps, std::span<const WallPeriod> periods,
                          const RunFacts& facts) {
   Compaction compaction;
-  compaction.initial = facts.solid_fraction_initial;
   compaction.has_wall_inside = std::ranges::any_of(
       steps, [&](const StepRecord& step) { return -step.wall_x > facts.volume_margin; });
   if (compaction.has_wall_inside) return compaction;
@@ -126,11 +119,11 @@ void summarise_wall(std::span<const StepRecord> steps, RunSummary& summary) {
   summary.jammed = jammed_state(steps, summary.wall, facts.f_min, facts.f_max);
   summary.contraction = first_contraction(steps, facts.frequency);
   const std::vector<WallPeriod>& periods = summary.wall.periods;
-  summary.rise = over_periods(periods, &WallPeriod::rise);
-  summary.net = over_periods(periods, &WallPeriod::net);
-  summary.yield_load = over_periods(periods, &WallPeriod::yield_load);
-  summary.speed_in = over_periods(periods, &WallPeriod::speed_in);
-  summary.speed_out = over_periods(periods, &WallPeriod::speed_out);
+  summary.rise = statistics(values_of(periods, &WallPeriod::rise));
+  summary.net = statistics(values_of(periods, &WallPeriod::net));
+  summary.yield_load = statistics(values_of(periods, &WallPeriod::yield_load));
+  summary.speed_in = statistics(values_of(periods, &WallPeriod::speed_in));
+  summary.speed_out = statistics(values_of(periods, &WallPeriod::speed_out));
   summary.prefactor = summary.rise.mean / eq3_displacement(facts);
   summary.law = force_law(steps, summary.wall, facts.grain_mass, facts.wall_mass, facts.gravity);
   std::vector<double> errors;
@@ -299,10 +292,8 @@ RunSummary summarise(std::span<const StepRecord> steps, const RunFacts& facts) {
   summary.active_contacts = statistics(record_column(steps, &StepRecord::active_contacts));
   summarise_accuracy(steps, summary);
   summary.energy = energy_balance(steps);
-  if (summary.facts.has_wall && summary.facts.frequency > 0.0 && summary.facts.step > 0.0)
-    summarise_wall(steps, summary);
-  if (summary.facts.has_packing)
-    summary.compaction = compaction_of(steps, summary.wall.periods, summary.facts);
+  if (facts.has_wall && facts.frequency > 0.0 && facts.step > 0.0) summarise_wall(steps, summary);
+  if (facts.has_packing) summary.compaction = compaction_of(steps, summary.wall.periods, facts);
   return summary;
 }
 

@@ -83,6 +83,8 @@ struct RunFacts {
   double smallest_size = not_known;    ///< circumradius of the smallest body [m]
   double friction = not_known, deposit_friction = not_known;
   double lid_pressure = not_known;  ///< in grain weights while depositing; 0: the lid is placed
+
+  double weight() const { return grain_mass * gravity; }  ///< m g [N]
 };
 
 /// X [m], the right side of Eq. 3 without C; m is the mass of all grains.
@@ -129,9 +131,8 @@ struct TimeWindow {
 inline constexpr TimeWindow paper_window{0.2, 1e30};
 
 /// The solid fraction rho and how it grows (paper, sec. 5, Eq. 4, Figs. 12 and 13). Of a run whose
-/// wall enters the control volume only rho before the drive is known: the wall displaces grains.
+/// wall enters the control volume it is not known: the wall displaces grains.
 struct Compaction {
-  double initial = not_known;        ///< rho before the drive
   bool has_wall_inside = false;      ///< the driven wall enters the control volume
   double reference = not_known;      ///< rho_0: at paper_window.begin
   double last = not_known;           ///< at the end of the run

@@ -1,6 +1,5 @@
 #include "experiments/measure/wall_cycles.hpp"
 
-#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
@@ -82,9 +81,9 @@ void find_phases(std::span<const StepRecord> steps, double duration_of_period, d
                  WallCycles& cycles) {
   const double transient = transient_end(1.0 / duration_of_period);
   const size_t first = first_after(steps, transient, h);
-  std::vector<double> speed;
-  for (size_t k = first; k < steps.size(); ++k) speed.push_back(std::abs(cycles.velocity[k]));
-  cycles.v_peak = statistics(speed).max;
+  const auto moving = std::span(cycles.velocity).subspan(first);
+  cycles.v_peak =
+      statistics(values_of(moving, [](double velocity) { return std::abs(velocity); })).max;
   const double limit = jammed_speed * cycles.v_peak;
   // a slow stretch of less than 4 % of a period is a turning point
   const size_t least = static_cast<size_t>(0.04 * duration_of_period / h);
@@ -150,8 +149,6 @@ WallCycles wall_cycles(std::span<const StepRecord> steps, double frequency, doub
     const WallPeriod period = make_period(steps, begin, end, h);
     if (period.first < period.last) cycles.periods.push_back(period);
   }
-  cycles.loop_last = cycles.periods.size();
-  cycles.loop_first = cycles.loop_last - std::min<size_t>(cycles.loop_last, 4);
   find_phases(steps, duration_of_period, h, cycles);
   return cycles;
 }

@@ -32,6 +32,7 @@
 // because the load near its minimum is f_max (omega t)^2/4: the stroke goes from F = f at
 // t = -t_0 = -(2/omega) sqrt(F/f_max) to rest at 2 t_0, over (9/4) F t_0^2/(m_w + M).
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -84,8 +85,12 @@ struct WallCycles {
   double v_peak = not_known;            ///< [m/s]
   std::vector<WallPhase> phase;     ///< one per step; none before the end of the first transient
   std::vector<WallPeriod> periods;  ///< those that count
-  size_t loop_first = 0, loop_last = 0;  ///< range in `periods` of the last four: Fig. 4 shows them
-  int jammed_periods = 0;                ///< periods in which a jammed stretch was found
+  int jammed_periods = 0;           ///< periods in which a jammed stretch was found
+
+  /// The last four periods, which Fig. 4 shows.
+  std::span<const WallPeriod> loop() const {
+    return std::span(periods).last(std::min<size_t>(periods.size(), 4));
+  }
 };
 
 /// `frequency` of the load [Hz], `step` h [s]; both must be positive (std::invalid_argument).

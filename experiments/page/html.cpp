@@ -1,5 +1,3 @@
-#include "experiments/page/html.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/atomic_file.hpp"
+#include "experiments/page/page.hpp"
 #include "platform/deflate.hpp"
 #include "platform/text.hpp"
 
@@ -89,7 +87,7 @@ Json curve_json(const Curve& curve) {
   constexpr const char* kinds[] = {"line", "line", "points", "area"};  // in the order of Mark
   return {{"title", plain_words(curve.title)},
           {"ink", name_in(variables, curve.ink)},
-          {"dash", curve.dashed ? 1 + curve.fineness : 0},
+          {"dash", curve.dash},
           {"width", curve.width},
           {"mark", name_in(kinds, curve.mark)},
           {"marked", curve.mark == Mark::marked_line},
@@ -136,15 +134,19 @@ std::string page_data_json(const Page& page) {
 
 /// Tables of more columns than this may be wider than the text.
 constexpr size_t widest_in_text = 8;
-/// Cells of more letters than this have a least width, so that their words do not stand in a tower.
-constexpr size_t longest_in_narrow_cell = 40;
+
+/// True for cells that have a least width, so that their many letters do not stand in a tower.
+bool is_long(const Text& cell) {
+  const std::string words = plain_words(cell);
+  const auto begins_letter = [](char byte) { return (byte & 0xc0) != 0x80; };  // in UTF-8
+  return std::ranges::count_if(words, begins_letter) > 40;
+}
 
 std::string row_of(const Table& table, const std::vector<Text>& cells, const std::string& tag) {
   std::string html = "<tr>";
   for (size_t c = 0; c < cells.size(); ++c) {
     const bool is_number = c < table.is_number.size() && table.is_number[c];
-    const bool is_long = !is_number && plain_words(cells[c]).size() > longest_in_narrow_cell;
-    const char* kind = is_number ? " class=\"n\"" : is_long ? " class=\"long\"" : "";
+    const char* kind = is_number ? " class=\"n\"" : is_long(cells[c]) ? " class=\"long\"" : "";
     html += '<' + tag + kind + '>' + html_of(cells[c]) + "</" + tag + '>';
   }
   return html + "</tr>\n";
@@ -280,10 +282,6 @@ std::string html_of(const Page& page) {
   if (page.answers.is_enabled && !has_chart_library())
     html += "<p class=\"note\">" + html_of(words("answers.missing")) + "</p>\n";
   return html + "</main>\n" + answers_html(page) + "</body>\n</html>\n";
-}
-
-void write_html_file(const std::filesystem::path& file, const Page& page) {
-  write_whole_file(file, html_of(page));
 }
 
 std::string inline_svg(std::string_view svg, const std::string& name, const std::string& title) {

@@ -1,9 +1,8 @@
-#include "experiments/page/markdown.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
 
+#include "experiments/page/page.hpp"
 #include "platform/text.hpp"
 
 namespace ballast::page {

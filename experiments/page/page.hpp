@@ -1,6 +1,6 @@
 #pragma once
 // The content of a page in plain words: the model of every page of the program. It knows neither
-// HTML nor Markdown; html.hpp and markdown.hpp write it.
+// HTML nor Markdown; html.cpp and markdown.cpp write it.
 //
 //   page::Page page{.title = name_of_run, .lede = {page::exact(steps) + " steps"}};
 //   page::Table table{.head = {"phase", page::marked("error / *gh*")}, .is_number = {false, true}};
@@ -9,11 +9,12 @@
 //   page::Picture wall{plot, {page::words("wall.caption", {{"x", page::quantity(x, "mm")}})}};
 //   page.add({"wall", "The wall", {wall}});
 //   page::draw_pictures(page, folder, {.command = "ballast report RUN"});
-//   page::write_html_file(folder / "report.html", page);
+//   write_whole_file(folder / "report.html", page::html_of(page));
 //   write_whole_file(folder / "README.md", page::markdown_of(page));
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -129,5 +130,31 @@ struct Drawing {
 /// dropped silently. A picture that cannot be drawn or written is dropped and gets a notice on the
 /// page; without gnuplot one notice stands for all.
 void draw_pictures(Page& page, const std::filesystem::path& folder, const Drawing& drawing = {});
+
+// HTML: one file that opens offline, with its figures inlined. Nothing is loaded from elsewhere;
+// only replays and the ends of pages with answers have scripts.
+
+std::string html_of(const Page& page);
+std::string html_of(const Text& text);
+/// A replay includes its data and the script that draws it.
+std::string html_of(const Block& block);
+
+/// Replaces & < > " ' by entities, and everything that clean_utf8 refuses by U+FFFD.
+std::string escaped_html(std::string_view text);
+
+/// A figure's SVG for inlining: without XML declaration, doctype and comments, with `name` before
+/// every id, so that ids differ between figures, and with `title` for screen readers.
+std::string inline_svg(std::string_view svg, const std::string& name, const std::string& title);
+
+/// Returns whether the library that draws charts (Chart.js) is built in.
+bool has_chart_library();
+
+// Markdown (GitHub's), with figures as files beside it. Such a page cannot have headings within
+// sections, listings or replays: they throw std::logic_error.
+
+std::string markdown_of(const Page& page);
+/// Characters that Markdown would take for marks are escaped.
+std::string markdown_of(const Text& text);
+std::string markdown_of(const Block& block);
 
 }  // namespace ballast::page

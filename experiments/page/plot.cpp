@@ -145,7 +145,7 @@ std::string script_number(double value) {
 }
 
 std::string plot_command(const std::string& block, const Curve& curve) {
-  constexpr const char* dashes[] = {" dt (8,5)", " dt (4,3)", " dt (1.5,3)"};
+  constexpr const char* dashes[] = {"", " dt (8,5)", " dt (4,3)", " dt (1.5,3)"};
   constexpr int shapes[] = {7, 9, 5, 13};  // gnuplot's numbers, in the order of MarkShape
   const int shape = shapes[static_cast<size_t>(curve.shape)];
   std::string text = block;
@@ -163,7 +163,7 @@ std::string plot_command(const std::string& block, const Curve& curve) {
   else
     text += printed(" using 1:2 with %s lc rgb %s lw %.3g%s",
                     curve.mark == Mark::line ? "lines" : "linespoints pt 7 ps 0.6", ink.c_str(),
-                    curve.width, curve.dashed ? dashes[std::clamp(curve.fineness, 0, 2)] : "");
+                    curve.width, dashes[std::clamp(curve.dash, 0, 3)]);
   return text + (curve.title.empty() ? " notitle" : " title " + quoted(curve.title));
 }
 
@@ -193,8 +193,9 @@ std::string log_axis(char axis, const Extent& extent, std::vector<double> number
     });
   }
   std::string list;
-  for (const double tick : numbered) list += (list.empty() ? "" : ", ") + script_number(tick);
-  for (const double tick : minor_log_ticks(extent)) list += ", '' " + script_number(tick) + " 1";
+  for (const double tick : numbered) add_to_list(list, script_number(tick));
+  for (const double tick : minor_log_ticks(extent))
+    add_to_list(list, "'' " + script_number(tick) + " 1");
   const bool has_powers_only = extent.high / extent.low >= 1e3;
   return printed("set logscale %c\nset format %c '%s'\nset %ctics (", axis, axis,
                  has_powers_only ? "10^{%L}" : "%g", axis) +

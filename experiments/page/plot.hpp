@@ -32,8 +32,7 @@ struct Curve {
   Mark mark = Mark::line;
   MarkShape shape = MarkShape::circle;
   double width = 1.6;  ///< of the line, or size of the points
-  bool dashed = false;
-  int fineness = 0;  ///< of dashes, 0 to 2: the larger, the shorter they are
+  int dash = 0;        ///< 0: a whole line; 1 to 3: dashes, the larger the shorter
   double opacity = 1.0;
   std::vector<double> y_error = {};  ///< points: half length of the bars
   std::vector<double> y_low = {};    ///< area: lower bound

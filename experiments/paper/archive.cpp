@@ -51,11 +51,11 @@ std::string packings_csv(const PaperData& data, const fs::path& folder) {
     ++start.runs;
   }
   CsvWriter csv;
-  csv.add_row(std::vector<std::string>{"packing", "scene", "seed", "runs", "sha256"});
+  csv.add_row({"packing", "scene", "seed", "runs", "sha256"});
   for (const auto& [key, start] : starts) {
     const fs::path file = packing_file(folder, key);
-    csv.add_row(std::vector<std::string>{key, start.scene, start.seed, std::to_string(start.runs),
-                                         path_exists(file) ? sha256_of(file) : ""});
+    csv.add_row({key, start.scene, start.seed, std::to_string(start.runs),
+                 path_exists(file) ? sha256_of(file) : ""});
   }
   return csv.take();
 }

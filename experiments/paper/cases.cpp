@@ -126,9 +126,7 @@ std::vector<Groups> ranges_of(const Groups& groups, bool is_frequency) {
 }
 
 SampleMean mean_of(const std::map<double, double>& by_seed) {
-  std::vector<double> values;
-  for (const auto& [seed, value] : by_seed) values.push_back(value);
-  return sample_mean(values);
+  return sample_mean(values_of(by_seed, &std::pair<const double, double>::second));
 }
 
 /// The mean difference of the exponents over the samples that both have.
@@ -319,11 +317,8 @@ void add_cases(PaperData& data, PaperSection& section) {
 }
 
 void fill_replicas(PaperData& data, PaperSection& section) {
-  Group slow, fast;
-  for (const RunRow* row : data.rows("replicas")) {
-    if ((*row)["frequency"] == 10.0) slow.samples.push_back(row);
-    if ((*row)["frequency"] == 60.0) fast.samples.push_back(row);
-  }
+  const Group slow{10.0, "10", data.rows("replicas frequency=10")},
+      fast{60.0, "60", data.rows("replicas frequency=60")};
   if (slow.samples.size() + fast.samples.size() < 2) return;
   page::Table table = page::words_table("replicas.table");
   for (const LabelledMeasure& column : stage_columns) {

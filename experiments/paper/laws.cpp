@@ -350,10 +350,9 @@ std::vector<CurvePoint> points_beside(const char* name, const MasterCurve& all,
     });
   });
   if (others.empty()) return others;
-  std::vector<double> off;
-  for (const CurvePoint& point : others)
-    off.push_back(std::exp(point.log_rise()) / all.curve.at(point.x) - 1.0);
-  const Statistics offsets = statistics(off);
+  const Statistics offsets = statistics(values_of(others, [&](const CurvePoint& point) {
+    return std::exp(point.log_rise()) / all.curve.at(point.x) - 1.0;
+  }));
   section.report(name, {{"points", std::to_string(more.points.size())},
                         {"others", std::to_string(others.size())},
                         {"curve", words_of(more.curve_misfit)},
@@ -449,8 +448,7 @@ void fill_curve(PaperData& data, PaperSection& section) {
 
 void add_laws(PaperData& data, PaperSection& section) {
   page::Table table = page::words_table("laws");
-  static const std::vector<Law> laws = all_laws();
-  for (const Law& law : laws)
+  for (const Law& law : all_laws())
     if (section.id == law.section) add_law(data, law, table, section);
   if (!table.rows.empty()) section.text.push_back(page::words("misfit"));
   section.add(std::move(table));

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/paper/motion.hpp"
 #include "experiments/paper/sections.hpp"
 #include "experiments/run_page/figures.hpp"
 
@@ -15,6 +14,13 @@ namespace {
 
 /// The largest time lag that the paper's 0.2 s allows, written with one digit and "about" [s].
 constexpr double paper_lag = 0.26;
+
+/// Mean over runs of a number of the summary, with its standard error.
+template <class Function>
+SampleMean mean_over(const std::vector<MeasuredRun>& runs, const Function& quantity) {
+  return sample_mean(
+      values_of(runs, [&](const MeasuredRun& run) { return quantity(run.summary); }));
+}
 
 /// The largest relative deviation of a frequency's value from the mean over frequencies, for each
 /// sample by itself; then the mean over samples.
@@ -33,7 +39,7 @@ SampleMean spread_over(const Groups& groups, RunMeasure measure, double low, dou
 }
 
 /// The wall's displacement in the colours of its phases, with the paper's time lag.
-Figure motion_figure(const MotionRun& run) {
+Figure motion_figure(const MeasuredRun& run) {
   Figure figure = figure_3(run.data, run.summary).plot;
   const std::vector<StepRecord>& steps = run.data.steps;
   for (const auto& [phase, title, ink] : {std::tuple{WallPhase::jammed, "jammed", Ink::green},
@@ -52,7 +58,7 @@ Figure motion_figure(const MotionRun& run) {
 }
 
 /// Adds the motion of the wall at 5 Hz.
-void add_motion(const std::vector<MotionRun>& runs, PaperSection& section) {
+void add_motion(const std::vector<MeasuredRun>& runs, PaperSection& section) {
   const SampleMean size = mean_over(runs, [](const auto&s) { return 1e3 * s.contraction.size; }),
                    time = mean_over(runs, [](const auto&s) { return s.contraction.time90; }),
                    rise = mean_over(runs, [](const auto&s) { return 1e3 * s.rise.mean; }),
@@ -68,11 +74,11 @@ void add_motion(const std::vector<MotionRun>& runs, PaperSection& section) {
   section.claim("fig3.slow", words, PaperRange::at_least(0.0), found(net));
 }
 
-page::Table branch_table(const std::vector<MotionRun>& runs) {
+page::Table branch_table(const std::vector<MeasuredRun>& runs) {
   page::Table table = page::words_table("fig4.table");
   for (size_t k = 0; k < runs.size(); ++k) {
     const RunSummary& s = runs[k].summary;
-    const double weight = s.facts.grain_mass * s.facts.gravity;
+    const double weight = s.facts.weight();
     table.rows.push_back({std::to_string(k + 1), page::number(s.law.active.amplitude / weight),
                           page::number(std::exp(s.law.active.rate * s.rise.mean)),
                           page::number(s.law.active.r2), page::number(s.law.active_line.r2),
@@ -97,9 +103,10 @@ double gain_trend(const RunSummary& summary) {
 
 /// Adds the paper's straight line with a constant gain in each period, through the level at 0.2 s;
 /// gain and level are those of the first sample.
-void add_gain_line(const MotionRun& run, Panel& panel) {
+void add_gain_line(const MeasuredRun& run, Panel& panel) {
   const Compaction& compaction = run.summary.compaction;
-  const double level = compaction.reference - compaction.initial, begin = paper_window.begin;
+  const double level = compaction.reference - run.data.facts.solid_fraction_initial,
+               begin = paper_window.begin;
   if (!std::isfinite(compaction.gain)) return;
   panel.lines.push_back(
       {level, page::marked("ρ~0~ = ") + page::number(compaction.reference), false, Ink::grey});
@@ -119,17 +126,16 @@ struct Orbit {
   int periods = 0;
 };
 
-Orbit mean_orbit(const RunData& data) {
-  const RunFacts& facts = data.facts;
-  const WallCycles cycles = wall_cycles(data.steps, facts.frequency, facts.step);
+Orbit mean_orbit(const MeasuredRun& run) {
+  const WallCycles& wall = run.summary.wall;
   Orbit orbit;
-  orbit.periods = static_cast<int>(cycles.periods.size());
-  for (const WallPeriod& period : cycles.periods)
+  orbit.periods = static_cast<int>(wall.periods.size());
+  for (const WallPeriod& period : wall.periods)
     for (size_t k = 0; k < orbit_phases; ++k) {
       // the same phase of the load in every period, whatever its number of steps
       const size_t sample = period.first + k * (period.last - period.first) / orbit_phases;
-      orbit.x[k] += (data.steps[sample].wall_x - period.x_before) / orbit.periods;
-      orbit.v[k] += cycles.velocity[sample] / orbit.periods;
+      orbit.x[k] += (run.data.steps[sample].wall_x - period.x_before) / orbit.periods;
+      orbit.v[k] += wall.velocity[sample] / orbit.periods;
     }
   return orbit;
 }
@@ -173,7 +179,7 @@ Panel portrait_panel(const Portrait& orbits, const std::string& x_label,
                 .y = orbits[k].v,
                 .title = page::number(portrait_frequencies[k], 2) + " Hz",
                 .ink = k == 0 ? Ink::blue : Ink::vermilion,
-                .dashed = k == 1};
+                .dash = k == 1};
     for (double& x : curve.x) x *= 1e3;
     for (double& v : curve.y) v *= 1e3;
     panel.curves.push_back(std::move(curve));
@@ -244,7 +250,7 @@ void add_falling_branch(const Groups& groups, PaperSection& section) {
 }  // namespace
 
 void fill_motion(PaperData& data, PaperSection& section) {
-  const std::vector<MotionRun> runs = read_motion(data);
+  const std::vector<MeasuredRun> runs = data.records("motion");
   if (!runs.empty()) add_motion(runs, section);
   const Groups groups = data.groups("frequency; slowest", "frequency");
   if (groups.size() < 2) return;
@@ -276,7 +282,7 @@ void fill_motion(PaperData& data, PaperSection& section) {
 }
 
 void fill_forces(PaperData& data, PaperSection& section) {
-  const std::vector<MotionRun> runs = read_motion(data);
+  const std::vector<MeasuredRun> runs = data.records("motion");
   if (runs.empty() || runs.front().summary.wall.periods.empty()) return;
   const SampleMean active = mean_over(runs, [](const auto&s) { return s.law.active.r2; }),
                    passive = mean_over(runs, [](const auto&s) { return s.law.passive.r2; }),
@@ -286,14 +292,12 @@ void fill_forces(PaperData& data, PaperSection& section) {
   const SampleMean share =
       mean_over(runs, [](const auto& s) { return s.jammed.speed_mean / s.speed_in.mean; });
   // the slope of f_g in the last tenth of the way in over that in the middle: 1 for a line
-  std::vector<double> steepness;
-  for (const MotionRun& run : runs) {
+  const SampleMean end = sample_mean(values_of(runs, [](const MeasuredRun& run) {
     const RunFacts& facts = run.summary.facts;
     const ForceLaw last_tenth = force_law(run.data.steps, run.summary.wall, facts.grain_mass,
                                           facts.wall_mass, facts.gravity, 0.0, 0.1);
-    steepness.push_back(last_tenth.passive.slope / run.summary.law.passive.slope);
-  }
-  const SampleMean end = sample_mean(steepness);
+    return last_tenth.passive.slope / run.summary.law.passive.slope;
+  }));
   const page::Values words{{"end", words_of(end)},
                            {"active", page::number(active.mean)},
                            {"active_r2", words_of(active)},
@@ -303,7 +307,7 @@ void fill_forces(PaperData& data, PaperSection& section) {
                            {"smooth", page::number(smooth.mean, 2)},
                            {"creep", page::number(creep.mean, 2)},
                            {"share", page::number(share.mean, 2)}};
-  const MotionRun& shown = runs.front();
+  const MeasuredRun& shown = runs.front();
   section.draw("fig4", figure_4(shown.data, shown.summary).plot, words);
   section.add(branch_table(runs));
   section.claim("fig4.active", words, good_fit, found(active));
@@ -317,28 +321,24 @@ void fill_forces(PaperData& data, PaperSection& section) {
 }
 
 void fill_density(PaperData& data, PaperSection& section) {
-  const std::vector<MotionRun> runs = read_motion(data);
+  const std::vector<MeasuredRun> runs = data.records("motion");
   if (runs.empty()) return;
   constexpr Ink inks[] = {Ink::blue, Ink::vermilion, Ink::green, Ink::purple, Ink::orange};
-  Panel panel;
+  Panel panel = solid_fraction_panel(runs.back().data);
   for (size_t k = 0; k < runs.size(); ++k)
-    draw_solid_fraction(runs[k].data, runs[k].summary.compaction.initial,
-                        "sample " + std::to_string(k + 1), inks[k % std::size(inks)], 1.6, panel);
-  const auto mean = [&](double Compaction::*value) {
-    return mean_over(runs, [&](const RunSummary& s) { return s.compaction.*value; });
-  };
-  const SampleMean before = mean(&Compaction::initial), at = mean(&Compaction::reference),
-                   gain = mean(&Compaction::gain),
-                   jump = mean_over(runs,
-                                    [](const RunSummary&s) {
-                                      return s.compaction.reference - s.compaction.initial;
-                                    }),
+    panel.curves.push_back(solid_fraction_line(runs[k].data, "sample " + std::to_string(k + 1),
+                                               inks[k % std::size(inks)], 1.6));
+  const auto initial = [](const RunSummary& s) { return s.facts.solid_fraction_initial; };
+  const auto reference = [](const RunSummary& s) { return s.compaction.reference; };
+  const SampleMean before = mean_over(runs, initial), at = mean_over(runs, reference),
+                   jump = mean_over(runs, [&](const auto&s) { return reference(s) - initial(s); }),
+                   gain = mean_over(runs, [](const auto&s) { return s.compaction.gain; }),
+                   share = mean_over(runs, [](const auto&s) { return s.compaction.relative_gain; }),
                    trend = mean_over(runs, gain_trend);
   add_gain_line(runs.front(), panel);
-  const page::Values words{
-      {"before", words_of(before)},      {"at", words_of(at)},
-      {"jump", words_of(jump)},          {"gain", words_of(gain)},
-      {"trend", words_of(trend, 100.0)}, {"share", words_of(mean(&Compaction::relative_gain))}};
+  const page::Values words{{"before", words_of(before)},      {"at", words_of(at)},
+                           {"jump", words_of(jump)},          {"gain", words_of(gain)},
+                           {"trend", words_of(trend, 100.0)}, {"share", words_of(share)}};
   section.draw("fig12", {.height = 460, .panels = {panel}}, words);
   // the paper writes both fractions with two digits
   section.claim("fig12.before", words, PaperRange::about(paper::solid_fraction_initial, 0.005),
@@ -351,10 +351,12 @@ void fill_density(PaperData& data, PaperSection& section) {
 void fill_portraits(PaperData& data, PaperSection& section) {
   std::vector<double> raw, scaled;
   Portrait shown;
-  const std::vector<RunData> fast = data.records("frequency", portrait_frequencies[1]);
-  for (const RunData& slow : data.records("frequency", portrait_frequencies[0])) {
-    const auto same = std::ranges::find_if(
-        fast, [&](const RunData& other) { return other.facts.seed == slow.facts.seed; });
+  // at portrait_frequencies
+  const std::vector<MeasuredRun> fast = data.records("frequency frequency=10");
+  for (const MeasuredRun& slow : data.records("frequency frequency=5")) {
+    const auto same = std::ranges::find_if(fast, [&](const MeasuredRun& other) {
+      return other.data.facts.seed == slow.data.facts.seed;
+    });
     if (same == fast.end()) continue;
     const Portrait seen{mean_orbit(slow), mean_orbit(*same)};
     if (seen[0].periods == 0 || seen[1].periods == 0) continue;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,11 +11,8 @@
 #include "platform/csv.hpp"
 #include "platform/error.hpp"
 #include "platform/text.hpp"
-#include "problems/scene/scene_file.hpp"
 
 namespace ballast {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -35,7 +31,7 @@ const RunColumn all_columns[] = {
     {"seed", "1", "of the grains: the sample", [](Run r) -> double { return r.facts.seed; }},
     {"frequency", "Hz", "nu", [](Run r) { return r.facts.frequency; }},
     {"force_over_weight", "1", "f_max/(m g)",
-     [](Run r) { return r.facts.f_max / (r.facts.grain_mass * r.facts.gravity); }},
+     [](Run r) { return r.facts.f_max / r.facts.weight(); }},
     {"gravity", "m/s^2", "g", [](Run r) { return r.facts.gravity; }},
     {"wall_mass_over_grains", "1", "m_w/m",
      [](Run r) { return r.facts.wall_mass / r.facts.grain_mass; }},
@@ -73,10 +69,9 @@ const RunColumn all_columns[] = {
      [](Run r) { return r.contraction.time90; }},
     // the forces
     {"push", "N", "F = a/(1 - w)", [](Run r) { return r.law.push; }},
-    {"push_over_weight", "1", "F/(m g)",
-     [](Run r) { return r.law.push / (r.facts.grain_mass * r.facts.gravity); }},
+    {"push_over_weight", "1", "F/(m g)", [](Run r) { return r.law.push / r.facts.weight(); }},
     {"yield_over_weight", "1", "f/(m g) where the stroke begins",
-     [](Run r) { return r.yield_load.mean / (r.facts.grain_mass * r.facts.gravity); }},
+     [](Run r) { return r.yield_load.mean / r.facts.weight(); }},
     {"carried_mass", "kg", "M = m_w w/(1 - w)", [](Run r) { return r.law.carried_mass; }},
     {"prefactor_theory", "1", "(9/4 pi^2) (F/(m g))^2 (m + m_w)/(m_w + M)",
      [](Run r) { return r.law.prefactor; }},
@@ -85,7 +80,8 @@ const RunColumn all_columns[] = {
     {"jam_force", "1", "mean |f_g - f|/f_max", [](Run r) { return r.jammed.force_mean; }},
     {"jam_speed", "m/s", "mean |v|", [](Run r) { return r.jammed.speed_mean; }},
     // the packing
-    {"density_before", "1", "rho before the drive", [](Run r) { return r.compaction.initial; }},
+    {"density_before", "1", "rho before the drive",
+     [](Run r) { return r.facts.solid_fraction_initial; }},
     {"density_reference", "1", "rho_0, at 0.2 s", [](Run r) { return r.compaction.reference; }},
     {"gain", "1", "Delta rho_1 per period", [](Run r) { return r.compaction.gain; }},
     {"rate", "1/s", "Eq. 4, from 0.2 s to the end", [](Run r) { return r.compaction.rate; }},
@@ -234,9 +230,9 @@ std::vector<RunRow> read_runs_csv(const std::filesystem::path& file) {
 
 std::string run_columns_csv() {
   CsvWriter csv;
-  csv.add_row(std::vector<std::string>{"column", "unit", "description"});
+  csv.add_row({"column", "unit", "description"});
   for (const RunColumn& column : all_columns)
-    csv.add_row(std::vector<std::string>{column.name, column.unit, column.meaning});
+    csv.add_row({column.name, column.unit, column.meaning});
   return csv.take();
 }
 
@@ -255,18 +251,6 @@ const RunRow* Group::like(const RunRow& other) const {
   for (const RunRow* row : samples)
     if ((*row)["seed"] == other["seed"]) return row;
   return nullptr;
-}
-
-std::vector<double> Group::values(RunMeasure measure) const {
-  std::vector<double> all;
-  for (const RunRow* row : samples) all.push_back((*row)[measure]);
-  return all;
-}
-
-std::vector<double> Group::logs(RunMeasure measure) const {
-  std::vector<double> all = values(measure);
-  for (double& one : all) one = std::log(one);
-  return all;
 }
 
 const Group* at(const Groups& groups, double value) {
@@ -413,13 +397,12 @@ Groups PaperData::settings(const Selection& selection) {
   return groups;
 }
 
-std::vector<RunData> PaperData::records(const std::string& stage, double frequency) {
-  std::vector<RunData> found;
-  for (const PlannedRun& run : campaign_) {
-    if (stage_of(run) != stage || !has(run)) continue;
-    RunData data = read_run_data(folder(run.key));
-    if (std::isnan(frequency) || data.facts.frequency == frequency)
-      found.push_back(std::move(data));
+std::vector<MeasuredRun> PaperData::records(const Selection& selection) {
+  std::vector<MeasuredRun> found;
+  for (const RunRow* row : rows(selection)) {
+    if (!finished_.contains(row->key)) continue;
+    MeasuredRun& run = found.emplace_back(MeasuredRun{read_run_data(folder(row->key)), {}});
+    run.summary = summarise(run.data.steps, run.data.facts);
   }
   return found;
 }

@@ -4,6 +4,7 @@
 // Figures draw means over samples; a comparison of two groups of rows compares every sample with
 // the same sample of the other group.
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -79,10 +80,14 @@ struct Group {
 
   /// The sample of the same seed; null: none.
   const RunRow* like(const RunRow& other) const;
-  std::vector<double> values(RunMeasure measure) const;
+  std::vector<double> values(RunMeasure measure) const {
+    return values_of(samples, [&](const RunRow* row) { return (*row)[measure]; });
+  }
   SampleMean mean(RunMeasure measure) const { return sample_mean(values(measure)); }
   /// The logarithm of each sample's value.
-  std::vector<double> logs(RunMeasure measure) const;
+  std::vector<double> logs(RunMeasure measure) const {
+    return values_of(values(measure), [](double one) { return std::log(one); });
+  }
   double log_mean(RunMeasure measure) const { return sample_mean(logs(measure)).mean; }
 };
 using Groups = std::vector<Group>;
@@ -132,8 +137,8 @@ class PaperData {
   /// alone. A run or record that several stages share belongs to the first.
   Groups settings(const Selection& selection);
 
-  /// The records of a stage's finished runs at a frequency (NaN: at any).
-  std::vector<RunData> records(const std::string& stage, double frequency = not_known);
+  /// The finished runs among these rows.
+  std::vector<MeasuredRun> records(const Selection& selection);
   /// "PARTIAL: 6 of 30 runs of frequency."; empty when all planned runs are known.
   std::string missing(const std::string& stage) const;
 

@@ -6,8 +6,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "experiments/page/html.hpp"
-#include "experiments/page/markdown.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/csv.hpp"
@@ -270,8 +268,7 @@ Curve curve_of(const Points& points, const page::Text& title, Ink ink, MarkShape
 
 std::string figure_csv(const Figure& figure) {
   CsvWriter csv;
-  csv.add_row(std::vector<std::string>{"panel", "y_label", "curve", "x_label", "x", "y", "y_error",
-                                       "y_low"});
+  csv.add_row({"panel", "y_label", "curve", "x_label", "x", "y", "y_error", "y_low"});
   for (size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];
     for (size_t c = 0; c < panel.curves.size(); ++c) {
@@ -330,7 +327,7 @@ void write_paper_report(PaperData& data, const std::vector<PaperSection>& sectio
   page.answers = {.is_enabled = true, .has_charts = true};
   // the data are in CSV files beside, and README.md shows the SVG files themselves
   page::draw_pictures(page, folder, {.is_file_shown = true});
-  write_html_file(folder / "paper.html", page);
+  write_whole_file(folder / "paper.html", html_of(page));
   page.lede.push_back(page::words("paper.made_by"));
   write_whole_file(folder / "README.md", markdown_of(page));
 }

@@ -121,7 +121,7 @@ struct Drawn {
 template <class Function>
 Curve curve_of(const Function& function, const Drawn& range, const page::Text& title, Ink ink,
                bool dashed = true) {
-  Curve curve{.title = title, .ink = ink, .dashed = dashed};
+  Curve curve{.title = title, .ink = ink, .dash = dashed};
   constexpr int parts = 200;
   for (int k = 0; k <= parts; ++k) {
     const double s = static_cast<double>(k) / parts;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/paper/motion.hpp"
+#include "experiments/paper/sections.hpp"
 #include "experiments/run_page/figures.hpp"
 
 namespace ballast {
@@ -46,23 +46,22 @@ ModelPhase released(const WallModel& model, ModelPhase phase, double x, double l
 
 /// The last period of the simulation and the model: x from the jamming position against time, and
 /// f_g smoothed against v. Axes in s, mm, mm/s, kN or N.
-Figure draw(const MotionRun& run, const ModelMotion& model) {
+Figure draw(const MeasuredRun& run, const ModelMotion& model) {
   const ForceUnit unit = force_unit(run.summary.facts.f_max);
   const WallPeriod& period = run.summary.wall.periods.back();
-  std::vector<double> time, x, model_x;
-  Curve loop{.title = "simulation"},
-      model_loop{.title = "model", .ink = Ink::black, .dashed = true};
+  std::vector<double> time, x;
+  Curve loop{.title = "simulation"}, model_loop{.title = "model", .ink = Ink::black, .dash = 1};
   for (size_t k = period.first; k < period.last; ++k) {
     time.push_back(run.data.steps[k].time - period.begin);
     x.push_back(1e3 * (run.data.steps[k].wall_x - period.x_before));
     loop.add(1e3 * run.summary.wall.velocity[k], unit.factor * run.summary.wall.force[k]);
   }
-  for (const double at : model.x) model_x.push_back(1e3 * at);
   // every twentieth of the model's many steps suffices for the same line
   for (size_t k = 0; k < model.v.size(); k += 20)
     model_loop.add(1e3 * model.v[k], unit.factor * model.force[k]);
-  Curve motion = line_of(model.time, model_x, "model", Ink::black, 2.0);
-  motion.dashed = true;
+  Curve motion = line_of(model.time, values_of(model.x, [](double at) { return 1e3 * at; }),
+                         "model", Ink::black, 2.0);
+  motion.dash = 1;
   return {.height = 760,
           .panels = {{.x_label = page::marked("*t* in the period  (s)"),
                       .y_label = page::marked("*x* − *x*~jam~  (mm)"),
@@ -108,7 +107,7 @@ ModelMotion integrate(const WallModel& model, int parts) {
 }
 
 void fill_model(PaperData& data, PaperSection& section) {
-  const std::vector<MotionRun> runs = read_motion(data);
+  const std::vector<MeasuredRun> runs = data.records("motion");
   page::Table table = page::words_table("fig5.table");
   std::vector<double> rises, speeds;
   Figure drawn;

@@ -57,11 +57,9 @@ long count(const std::vector<Task>& tasks, bool is_run, TaskState state) {
 }  // namespace
 
 long steps_in_log(const fs::path& run_folder) {
-  const fs::path log = RunFolder(run_folder).steps_log();
-  if (!path_exists(log)) return 0;
   try {
-    return RowReader(log).row_count();
-  } catch (const Error&) {  // the log is just being made
+    return RowReader(RunFolder(run_folder).steps_log()).row_count();
+  } catch (const Error&) {  // there is none, or it is just being made
     return 0;
   }
 }
@@ -79,8 +77,8 @@ std::string state_of(const fs::path& results, const PlannedRun& run) {
 void write_index(const fs::path& results, const Plan& plan, const std::set<std::string>& failed) {
   const fs::path file = results / "index.csv";
   CsvWriter csv;
-  csv.add_row(std::vector<std::string>{"plan", "name", "key", "state", "steps_done", "steps",
-                                       "seconds", "error_mean", "commit"});
+  csv.add_row(
+      {"plan", "name", "key", "state", "steps_done", "steps", "seconds", "error_mean", "commit"});
   for (const PlannedRun& run : plan.runs) {
     const RunFolder folder(run_folder(results, run));
     const std::string state = failed.contains(run.key) ? "failed" : state_of(results, run);

@@ -36,15 +36,14 @@ Curve column_line(const RunData& data, double StepRecord::*value, double factor,
 
 /// The fits, drawn along every stroke of the loop from its own jamming position.
 Curve fit_curve(const RunSummary& summary, double factor) {
-  Curve curve{.title = "fits", .ink = Ink::black, .width = 1.3, .dashed = true};
+  Curve curve{.title = "fits", .ink = Ink::black, .width = 1.3, .dash = 1};
   constexpr int parts = 32;
   const auto add = [&](double jam, double stroke, const auto& law) {
     for (int k = 0; k <= parts; ++k)
       curve.add(1e3 * (jam + stroke * k / parts), factor * law.at(stroke * k / parts));
     curve.add(not_known, not_known);
   };
-  for (size_t p = summary.wall.loop_first; p < summary.wall.loop_last; ++p) {
-    const WallPeriod& period = summary.wall.periods[p];
+  for (const WallPeriod& period : summary.wall.loop()) {
     add(period.x_before, period.x_peak - period.x_before, summary.law.active);
     add(period.x_after, period.x_peak - period.x_after, summary.law.passive);
   }
@@ -70,10 +69,10 @@ Panel jammed_panel(const RunData& data, const WallCycles& cycles, const std::vec
 
 page::Picture figure_12(const RunData& data, const RunSummary& summary) {
   const Compaction& compaction = summary.compaction;
-  Panel panel;
-  draw_solid_fraction(data, compaction.initial, page::marked("Δ*ρ*"), Ink::blue, 1.8, panel);
-  page::Text caption =
-      page::words("run.fig12.paper", {{"initial", page::number(compaction.initial, 4)}});
+  Panel panel = solid_fraction_panel(data);
+  panel.curves = {solid_fraction_line(data, page::marked("Δ*ρ*"), Ink::blue, 1.8)};
+  const double initial = summary.facts.solid_fraction_initial;
+  page::Text caption = page::words("run.fig12.paper", {{"initial", page::number(initial, 4)}});
   if (std::isfinite(compaction.reference))
     caption +=
         page::words("run.fig12.reference", {{"reference", page::number(compaction.reference, 4)}});
@@ -82,7 +81,7 @@ page::Picture figure_12(const RunData& data, const RunSummary& summary) {
   if (std::isfinite(compaction.gain) && periods.front().first > 0) {
     // a line from the first period's begin to the last one's end: its slope is the mean gain
     const auto change_after = [&](size_t samples) {
-      return data.steps[samples - 1].solid_fraction - compaction.initial;
+      return data.steps[samples - 1].solid_fraction - initial;
     };
     panel.curves.push_back(
         {.x = {periods.front().begin, periods.back().end},
@@ -90,7 +89,7 @@ page::Picture figure_12(const RunData& data, const RunSummary& summary) {
          .title = "gain per period " + page::number(compaction.gain),
          .ink = Ink::vermilion,
          .width = 1.8,
-         .dashed = true});
+         .dash = 1});
     caption += page::words("run.fig12.trend", {{"slope", page::number(compaction.gain)},
                                                {"gain", page::number(compaction.relative_gain)}});
   }
@@ -251,8 +250,7 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
               .y_min = 0.0};
   // The force of each step is grey, the smoothed force of each phase above it has a colour. `add`
   // draws the samples of the loop's periods that `is_drawn` takes; the line breaks between them.
-  const size_t first = cycles.periods[cycles.loop_first].first,
-               last = cycles.periods[cycles.loop_last - 1].last;
+  const size_t first = cycles.loop().front().first, last = cycles.loop().back().last;
   const auto add = [&](const std::vector<double>& force, const char* title, Ink ink, double width,
                        const auto& is_drawn) {
     Curve& curve = panel.curves.emplace_back(Curve{.title = title, .ink = ink, .width = width});
@@ -279,7 +277,7 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   if (top > 0.0) panel.y_max = 1.1 * top;
   if (has_fits) panel.curves.push_back(fit_curve(summary, unit.factor));
   page::Text caption = page::words(
-      "run.fig04.paper", {{"periods", page::exact(cycles.loop_last - cycles.loop_first)},
+      "run.fig04.paper", {{"periods", page::exact(cycles.loop().size())},
                           {"smoothing", page::exact_quantity(1e3 * cycles.smoothing, "ms")}});
   const ForceLaw& law = summary.law;
   if (has_fits)
@@ -296,31 +294,30 @@ page::Picture figure_4(const RunData& data, const RunSummary& summary) {
   return run_picture("fig04", 580, {panel}, caption);
 }
 
-void draw_solid_fraction(const RunData& data, double initial, const page::Text& title, Ink ink,
-                         double width, Panel& panel) {
-  auto change = record_column(data.steps, &StepRecord::solid_fraction);
-  for (double& value : change) value -= initial;
-  std::vector<Curve> curves = std::move(panel.curves);
-  panel = time_panel(data, "Δ*ρ*");
+Panel solid_fraction_panel(const RunData& data) {
+  Panel panel = time_panel(data, "Δ*ρ*");
   panel.lines = {{paper_window.begin, "0.2 s", true}};
-  curves.push_back(
-      line_of(record_column(data.steps, &StepRecord::time), change, title, ink, width));
-  panel.curves = std::move(curves);
+  return panel;
+}
+
+Curve solid_fraction_line(const RunData& data, const page::Text& title, Ink ink, double width) {
+  auto change = record_column(data.steps, &StepRecord::solid_fraction);
+  for (double& value : change) value -= data.facts.solid_fraction_initial;
+  return line_of(record_column(data.steps, &StepRecord::time), change, title, ink, width);
 }
 
 std::vector<page::Picture> paper_figures(const RunData& data, const RunSummary& summary) {
   std::vector<page::Picture> figures;
-  const bool has_loop = summary.wall.loop_first < summary.wall.loop_last;
   const bool has_packing = summary.facts.has_packing;
   if (summary.facts.has_wall) figures.push_back(figure_3(data, summary));
-  if (has_loop && has_packing) figures.push_back(figure_4(data, summary));
+  if (has_packing && !summary.wall.periods.empty()) figures.push_back(figure_4(data, summary));
   if (has_packing) figures.push_back(figure_12(data, summary));
   return figures;
 }
 
 std::vector<page::Picture> diagnostic_figures(const RunData& data, const RunSummary& summary) {
   std::vector<page::Picture> figures;
-  if (summary.wall.loop_first < summary.wall.loop_last && summary.facts.has_packing)
+  if (summary.facts.has_packing && !summary.wall.periods.empty())
     figures.push_back(jammed_figure(data, summary));
   figures.push_back(error_figure(data, summary));
   // a scene without any overlap has no logarithm of it to show

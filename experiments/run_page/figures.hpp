@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "experiments/measure/run_data.hpp"
-#include "experiments/measure/run_summary.hpp"
 #include "experiments/page/page.hpp"
 
 namespace ballast {
@@ -20,10 +19,9 @@ std::vector<page::Picture> diagnostic_figures(const RunData& data, const RunSumm
 page::Picture figure_3(const RunData& data, const RunSummary& summary);
 page::Picture figure_4(const RunData& data, const RunSummary& summary);
 
-/// Draws the change of the solid fraction since before the drive into the panel of Fig. 12, beside
-/// the curves that it has already.
-void draw_solid_fraction(const RunData& data, double initial, const page::Text& title, Ink ink,
-                         double width, Panel& panel);
+/// The panel of Fig. 12, and in it the change of the solid fraction since before the drive.
+Panel solid_fraction_panel(const RunData& data);
+Curve solid_fraction_line(const RunData& data, const page::Text& title, Ink ink, double width);
 
 /// A line of at most 3000 samples, which looks like the line of all samples.
 Curve line_of(std::vector<double> x, std::vector<double> y, const page::Text& title, Ink ink,

@@ -5,10 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/measure/run_summary.hpp"
-#include "experiments/page/html.hpp"
 #include "experiments/run_page/figures.hpp"
-#include "experiments/view/view_page.hpp"
+#include "experiments/view/view.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "platform/program.hpp"
 #include "platform/text.hpp"
@@ -130,7 +129,7 @@ void add_wall(const RunSummary& summary, Results& results) {
 void add_compaction(const RunSummary& summary, Results& results) {
   const Compaction& compaction = summary.compaction;
   results.group("Solid fraction");
-  results.compared("before the drive", page::number(compaction.initial, 4),
+  results.compared("before the drive", page::number(summary.facts.solid_fraction_initial, 4),
                    page::number(paper::solid_fraction_initial, 2));
   results.compared("ρ~0~, at 0.2\u202fs", page::number(compaction.reference, 4),
                    page::number(paper::solid_fraction_reference, 2));
@@ -335,7 +334,7 @@ void write_report(const std::filesystem::path& folder) {
                                               std::filesystem::absolute(folder).string()})});
   page.add({"reproduce", "How to make it again", {page::Listing{reproduce_commands(data)}}});
   page.add({"next", "What next", {page::Listing{next_commands(has_packing)}}});
-  write_html_file(folder / "report.html", page);
+  write_whole_file(folder / "report.html", html_of(page));
 }
 
 }  // namespace ballast

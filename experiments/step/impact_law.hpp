@@ -12,7 +12,6 @@
 #include <span>
 #include <vector>
 
-#include "problems/algebra/islands.hpp"
 #include "solvers/seam/run_solver.hpp"
 
 namespace ballast {

@@ -1,5 +1,3 @@
-#include "experiments/view/still.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/view/view.hpp"
 #include "platform/deflate.hpp"
 #include "platform/text.hpp"
 

@@ -1,5 +1,3 @@
-#include "experiments/view/view_data.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +6,7 @@
 #include "experiments/box/packing.hpp"
 #include "experiments/record/recorder.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "experiments/view/view.hpp"
 #include "geometry/shape/convex_hull.hpp"
 #include "geometry/shape/grain_shapes.hpp"
 #include "geometry/shape/mass_properties.hpp"
@@ -28,30 +27,29 @@ constexpr size_t most_rows = 6000;  // of a curve: more than a screen has column
 
 void add_curves(const RunData& run, ViewData& view) {
   const size_t stride = (run.steps.size() + most_rows - 1) / most_rows;
-  // every stride-th row, in the reader's unit
-  const auto add = [&](const ViewSeries& series, double StepRecord::*value, double factor = 1.0) {
-    view.series.push_back(series);
-    for (size_t k = 0; k < run.steps.size(); k += stride)
-      view.series.back().values.push_back(factor * (run.steps[k].*value));
-  };
-  for (size_t k = 0; k < run.steps.size(); k += stride)
-    view.series_time.push_back(run.steps[k].time);
+  std::vector<StepRecord> rows;
+  for (size_t k = 0; k < run.steps.size(); k += stride) rows.push_back(run.steps[k]);
+  view.series_time = record_column(rows, &StepRecord::time);
   if (view.system.first_driven_wall() >= 0) {
     double largest = 0.0;
     for (const StepRecord& step : run.steps) largest = std::max(largest, std::abs(step.load));
     const double factor = largest >= 1000.0 ? 1e-3 : 1.0;
     const std::string unit = largest >= 1000.0 ? "kN" : "N";
-    add({"x", "x", "mm", "blue", {}}, &StepRecord::wall_x, 1e3);
-    add({"fg", "f_g", unit, "grey", {}}, &StepRecord::wall_force, factor);
-    add({"f", "f", unit, "vermilion", {}}, &StepRecord::load, factor);
+    view.series = {
+        {"x", "x", "mm", "blue", record_column(rows, &StepRecord::wall_x, 1e3)},
+        {"fg", "f_g", unit, "grey", record_column(rows, &StepRecord::wall_force, factor)},
+        {"f", "f", unit, "vermilion", record_column(rows, &StepRecord::load, factor)}};
     view.plots = {{"", {"x"}}, {"", {"fg", "f"}}, {"x", {"fg"}}};
   }
   if (run.scene && run.scene->grains) {
-    add({"rho", "ρ", "", "green", {}}, &StepRecord::solid_fraction);
+    view.series.push_back(
+        {"rho", "ρ", "", "green", record_column(rows, &StepRecord::solid_fraction)});
     view.plots.push_back({"", {"rho"}});
   } else {
-    add({"energy", "E", "J", "purple", {}}, &StepRecord::kinetic_energy);
-    add({"contacts", "n", "", "green", {}}, &StepRecord::active_contacts);
+    view.series.push_back(
+        {"energy", "E", "J", "purple", record_column(rows, &StepRecord::kinetic_energy)});
+    view.series.push_back(
+        {"contacts", "n", "", "green", record_column(rows, &StepRecord::active_contacts)});
     view.plots.insert(view.plots.end(), {{"", {"energy"}}, {"", {"contacts"}}});
   }
 }

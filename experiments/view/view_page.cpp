@@ -1,16 +1,15 @@
-#include "experiments/view/view_page.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/page/html.hpp"
-#include "experiments/view/still.hpp"
+#include "experiments/view/view.hpp"
+#include "platform/atomic_file.hpp"
 #include "platform/deflate.hpp"
 
 namespace ballast {
@@ -53,16 +52,16 @@ std::string history_of(const std::vector<Word>& values, size_t columns, int orde
   return text_of(codes);
 }
 
-/// The place of `value` in [low, low + span] in 16 bits; an empty span gives 0.
-std::uint16_t in_16_bits(double value, double low, double span) {
+/// The place of `value` in [low, low + span] in all bits of a Word; an empty span gives 0.
+template <class Word>
+Word place_in(double value, double low, double span) {
   const double share = span > 0.0 ? std::clamp((value - low) / span, 0.0, 1.0) : 0.0;
-  return static_cast<std::uint16_t>(std::lround(share * 65535.0));
+  return static_cast<Word>(std::lround(share * std::numeric_limits<Word>::max()));
 }
 
-/// Maps -1 .. 1 to 8 bits (0 is 128) by a root, with fine steps near 0.
-std::uint8_t signed_root(double value) {
-  const double root = std::copysign(std::sqrt(std::min(std::abs(value), 1.0)), value);
-  return static_cast<std::uint8_t>(128 + std::lround(127.0 * root));
+/// Maps -1 .. 1 to 8 bits; 0 is 128.
+std::uint8_t signed_byte(double value) {
+  return static_cast<std::uint8_t>(128 + std::lround(127.0 * std::clamp(value, -1.0, 1.0)));
 }
 
 /// The bytes that the parts of a replay from `first_part` on take in the page.
@@ -132,7 +131,7 @@ void pack_shapes(const ViewData& view, Json& head, page::Replay& replay) {
   head["shapes"] = shapes.size();
   head["shape_of"] = shape_of;
   replay.parts.emplace_back("shapes", text_of(words));
-  replay.parts.emplace_back("grains", text_of(grains));
+  replay.parts.emplace_back("masses", text_of(grains));
 }
 
 /// Packs positions, rotations and velocities of the grains in the chosen frames. A quaternion has
@@ -158,14 +157,16 @@ void pack_poses(const ViewData& view, const std::vector<size_t>& chosen, Json& h
     head["times"].push_back(frame.time);
     for (size_t g = 0; g < grains; ++g) {
       for (int k = 0; k < 3; ++k) {
-        positions.push_back(in_16_bits(frame.pose[g].position[k], low[k], span[k]));
-        velocities.push_back(signed_root(fastest > 0.0 ? frame.velocity[g][k] / fastest : 0.0));
+        positions.push_back(place_in<std::uint16_t>(frame.pose[g].position[k], low[k], span[k]));
+        // by a root, with fine steps near 0
+        const double share = fastest > 0.0 ? frame.velocity[g][k] / fastest : 0.0;
+        velocities.push_back(signed_byte(std::copysign(std::sqrt(std::abs(share)), share)));
       }
       Quat turn = frame.pose[g].rotation;
       if (turn.dot(before[g]) < 0.0) turn.coeffs() *= -1.0;
       before[g] = turn;
       for (const double entry : {turn.w(), turn.x(), turn.y(), turn.z()})
-        rotations.push_back(in_16_bits(entry, -1.0, 2.0));
+        rotations.push_back(place_in<std::uint16_t>(entry, -1.0, 2.0));
     }
   }
   head["low"] = {low.x(), low.y(), low.z()};
@@ -220,6 +221,7 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
   std::vector<std::int32_t> body_a, body_b;
   Words forces;
   std::vector<double> normal_forces;
+  double largest = 0.0;
   std::array<Bytes, 3> places;
   Bytes mobilised;
   head["contact_frames"] = head["contact_counts"] = Json::array();
@@ -243,19 +245,15 @@ void pack_contacts(const ViewData& view, const std::vector<size_t>& chosen, size
       last = a;
       const Vec3 arm = contact.position.cast<double>() - frame.pose[a].position,
                  place = view.system.period.nearest(arm) / (1.02 * reach);
-      for (int i = 0; i < 3; ++i)
-        places[i].push_back(
-            static_cast<std::uint8_t>(128 + std::lround(127.0 * std::clamp(place[i], -1.0, 1.0))));
+      for (int i = 0; i < 3; ++i) places[i].push_back(signed_byte(place[i]));
       const float force = contact.force.dot(contact.normal);
-      const double tangential = (contact.force - force * contact.normal).norm();
-      const double bound = view.system.friction * static_cast<double>(force);
+      const double tangential = (contact.force - force * contact.normal).norm(),
+                   bound = view.system.friction * static_cast<double>(force);
       normal_forces.push_back(force);
-      mobilised.push_back(static_cast<std::uint8_t>(
-          bound > 0.0 ? std::lround(255.0 * std::min(tangential / bound, 1.0)) : 0));
+      largest = std::max<double>(largest, force);
+      mobilised.push_back(place_in<std::uint8_t>(tangential, 0.0, bound));
     }
   }
-  double largest = 0.0;
-  for (const double force : normal_forces) largest = std::max(largest, force);
   for (const double force : normal_forces) {
     const double share = largest > 0.0 ? std::max(force, 0.0) / largest : 0.0;
     forces.push_back(static_cast<std::uint16_t>(std::lround(4095.0 * std::sqrt(share))));
@@ -292,8 +290,7 @@ void pack_errors(const ViewData& view, Json& head, page::Replay& replay) {
         {{"backend", one.backend}, {"iterations", one.iterations}, {"rms", one.rms}});
     for (const auto& budget : one.error)
       for (const double error : budget)
-        bytes.push_back(static_cast<std::uint8_t>(
-            std::lround(255.0 * std::clamp((std::log10(error) + 9.0) / 11.0, 0.0, 1.0))));
+        bytes.push_back(place_in<std::uint8_t>(std::log10(error), -9.0, 11.0));
   }
   replay.parts.emplace_back("errors", text_of(bytes));
 }
@@ -351,7 +348,7 @@ page::Replay replay_of(const ViewData& view) {
 void write_view_page(const ViewData& view, const std::filesystem::path& file) {
   page::Page page{.title = view.title};
   page.add({"motion", view.errors.empty() ? "In 3D" : "The error in space", {replay_of(view)}});
-  write_html_file(file, page);
+  write_whole_file(file, html_of(page));
 }
 
 }  // namespace ballast

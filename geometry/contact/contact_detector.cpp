@@ -2,14 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
-
-#include "geometry/contact/convex_elements.hpp"
-#include "geometry/contact/detection_part.hpp"
-#include "platform/worker_team.hpp"
 
 namespace ballast {
 namespace {
@@ -22,122 +17,76 @@ double chosen_skin(double skin, std::span<const CollisionShape> shapes) {
   return 0.05 * sum / static_cast<double>(shapes.size());
 }
 
-using Elements = std::optional<ConvexElements>;
-
-DetectedBodies detected_bodies(std::vector<ContactShape> shapes, const Elements& elements) {
-  DetectedBodies bodies(elements ? elements->shapes() : std::move(shapes));
-  for (int i = 0; elements && i < elements->count(); ++i)
-    bodies.is_image[i] = elements->is_image(i);
-  return bodies;
-}
-
-std::vector<BroadPhase::Body> broad_phase_bodies(const DetectedBodies& bodies,
-                                                 const Elements& elements) {
-  std::vector<BroadPhase::Body> list;
-  for (int i = 0; i < bodies.count(); ++i) {
-    list.push_back({bodies.shape(i), bodies.shapes[i].fixed});
-    if (!elements) continue;
-    list.back().owner = elements->body(i);
-    list.back().image = elements->is_image(i);
-  }
-  return list;
-}
-
 }  // namespace
-
-struct ContactDetector::State {
-  State(std::vector<ContactShape> shapes, const DetectionSettings& detection, const Period& period)
-      : settings(detection),
-        body_count(shapes.size()),
-        elements(ConvexElements::are_needed(shapes, period)
-                     ? std::make_optional<ConvexElements>(shapes, period)
-                     : std::nullopt),
-        bodies(detected_bodies(std::move(shapes), elements)),
-        broad_phase(broad_phase_bodies(bodies, elements),
-                    chosen_skin(settings.skin, bodies.tables)) {
-    parts.emplace_back(bodies, settings);
-    share();
-  }
-
-  void check(std::span<const Pose> poses, std::span<const double> reach) const;
-  void share();
-  void put_together(std::vector<ContactPoint>& contacts);
-
-  DetectionSettings settings;
-  size_t body_count;
-  Elements elements;  // only where bodies have several parts or the world repeats itself
-  DetectedBodies bodies;
-  BroadPhase broad_phase;
-  WorkerTeam* team = nullptr;
-  std::vector<DetectionPart> parts;
-  DetectionCounters counters;
-};
 
 ContactDetector::ContactDetector(std::vector<ContactShape> shapes,
                                  const DetectionSettings& settings, const Period& period)
-    : state_(std::make_unique<State>(std::move(shapes), settings, period)) {}
-ContactDetector::~ContactDetector() = default;
-const DetectionCounters& ContactDetector::counters() const { return state_->counters; }
+    : settings_(settings),
+      body_count_(shapes.size()),
+      elements_(ConvexElements::are_needed(shapes, period)
+                    ? std::make_optional<ConvexElements>(shapes, period)
+                    : std::nullopt),
+      bodies_(elements_ ? elements_->shapes() : std::move(shapes),
+              elements_ ? &*elements_ : nullptr),
+      broad_phase_(bodies_.listed, chosen_skin(settings.skin, bodies_.tables)) {
+  use_team(nullptr, 1);
+}
 
 void ContactDetector::use_team(WorkerTeam* team, int parts) {
-  State& s = *state_;
-  s.team = team;
-  s.broad_phase.use_team(team);
-  while (static_cast<int>(s.parts.size()) < parts) s.parts.emplace_back(s.bodies, s.settings);
-  s.share();
+  team_ = team;
+  broad_phase_.use_team(team);
+  while (static_cast<int>(parts_.size()) < parts) parts_.emplace_back(bodies_, settings_);
+  share();
 }
 
 void ContactDetector::detect(std::span<const Pose> poses, std::span<const double> reach,
                              std::vector<ContactPoint>& contacts, std::span<const Pose> ahead) {
-  State& s = *state_;
-  s.check(poses, reach);
-  if (s.elements) {
-    s.elements->place(poses, reach, ahead);
-    ahead = s.elements->ahead();
-    poses = s.elements->poses();
-    reach = s.elements->reach();
+  check(poses, reach);
+  if (elements_) {
+    elements_->place(poses, reach, ahead);
+    ahead = elements_->ahead();
+    poses = elements_->poses();
+    reach = elements_->reach();
   }
   // Computes all rotations once, then the candidate pairs, then the contacts of each part's pairs.
-  s.bodies.take(poses, reach, s.team);
-  s.bodies.ahead = ahead;
-  const long rebuilds = s.broad_phase.rebuilds();
-  s.broad_phase.update(poses, s.bodies.rotations, s.bodies.reach);
-  if (s.broad_phase.rebuilds() != rebuilds) s.share();
+  bodies_.take(poses, reach, ahead, team_);
+  const long rebuilds = broad_phase_.rebuilds();
+  broad_phase_.update(poses, bodies_.rotations, bodies_.reach);
+  if (broad_phase_.rebuilds() != rebuilds) share();
   // A single part writes to `contacts`; the contacts of several are put together in their order.
-  const int parts = static_cast<int>(s.parts.size());
-  run_parts(s.team, parts, [&](int k) {
-    std::vector<ContactPoint>& found = parts == 1 ? contacts : s.parts[k].found;
+  const int parts = static_cast<int>(parts_.size());
+  run_parts(team_, parts, [&](int k) {
+    std::vector<ContactPoint>& found = parts == 1 ? contacts : parts_[k].found;
     found.clear();
-    s.parts[k].detect(s.broad_phase, found);
+    parts_[k].detect(broad_phase_, found);
   });
-  if (parts > 1) s.put_together(contacts);
-  s.counters = DetectionCounters{};
-  s.counters.broad_phase_rebuilds = s.broad_phase.rebuilds();
-  for (const DetectionPart& part : s.parts)
+  if (parts > 1) put_together(contacts);
+  counters_ = DetectionCounters{};
+  counters_.broad_phase_rebuilds = broad_phase_.rebuilds();
+  for (const DetectionPart& part : parts_)
     for (const auto counter :
          {&DetectionCounters::candidate_pairs, &DetectionCounters::cached_separations,
           &DetectionCounters::proved_axes, &DetectionCounters::full_tests,
           &DetectionCounters::manifolds})
-      s.counters.*counter += part.counters().*counter;
-  if (s.elements) s.elements->name_bodies(contacts);
+      counters_.*counter += part.counters().*counter;
+  if (elements_) elements_->name_bodies(contacts);
 }
 
 /// Concatenates the parts' contacts; normally each thread copies those that it has found.
-void ContactDetector::State::put_together(std::vector<ContactPoint>& contacts) {
+void ContactDetector::put_together(std::vector<ContactPoint>& contacts) {
   size_t count = 0;
-  for (DetectionPart& part : parts)
+  for (DetectionPart& part : parts_)
     part.first_found = std::exchange(count, count + part.found.size());
   if (count > contacts.capacity()) contacts.reserve(count + count / 8);  // room for later steps
   contacts.resize(count);
-  run_parts(team, static_cast<int>(parts.size()), [&](int k) {
-    std::ranges::copy(parts[k].found, contacts.begin() + static_cast<long>(parts[k].first_found));
+  run_parts(team_, static_cast<int>(parts_.size()), [&](int k) {
+    std::ranges::copy(parts_[k].found, contacts.begin() + static_cast<long>(parts_[k].first_found));
   });
 }
 
-void ContactDetector::State::check(std::span<const Pose> poses,
-                                   std::span<const double> reach) const {
-  if (poses.size() != body_count || reach.size() != body_count)
-    throw std::invalid_argument("detect: " + std::to_string(body_count) + " bodies, but " +
+void ContactDetector::check(std::span<const Pose> poses, std::span<const double> reach) const {
+  if (poses.size() != body_count_ || reach.size() != body_count_)
+    throw std::invalid_argument("detect: " + std::to_string(body_count_) + " bodies, but " +
                                 std::to_string(poses.size()) + " poses and " +
                                 std::to_string(reach.size()) + " reaches");
   for (size_t i = 0; i < poses.size(); ++i)
@@ -148,24 +97,24 @@ void ContactDetector::State::check(std::span<const Pose> poses,
 }
 
 /// Deals the bodies out to the parts, so that each has about the same work.
-void ContactDetector::State::share() {
+void ContactDetector::share() {
   // A plane tests all bodies, which is as much work as one pair for every 64 of them.
-  const size_t plane_work = 1 + bodies.shapes.size() / 64;
+  const size_t plane_work = 1 + bodies_.shapes.size() / 64;
   const auto work_of = [&](int a) {
-    return (bodies.shape(a) ? 0 : plane_work) +
-           static_cast<size_t>(broad_phase.first(a + 1) - broad_phase.first(a));
+    return (bodies_.shape(a) ? 0 : plane_work) +
+           static_cast<size_t>(broad_phase_.first(a + 1) - broad_phase_.first(a));
   };
   size_t total = 0, passed = 0;
-  for (int a = 0; a < bodies.count(); ++a) total += work_of(a);
+  for (int a = 0; a < bodies_.count(); ++a) total += work_of(a);
   // Each part is a run of neighbours in the list, so that the parts' contacts, one after the other,
   // are in the order that one part alone would give.
   int begin = 0;
-  for (size_t k = 0; k < parts.size(); ++k) {
+  for (size_t k = 0; k < parts_.size(); ++k) {
     int end = begin;
-    while (end < bodies.count() &&
-           (k + 1 == parts.size() || passed * parts.size() < (k + 1) * total))
+    while (end < bodies_.count() &&
+           (k + 1 == parts_.size() || passed * parts_.size() < (k + 1) * total))
       passed += work_of(end++);
-    parts[k].take_range(begin, end);
+    parts_[k].take_range(begin, end);
     begin = end;
   }
 }

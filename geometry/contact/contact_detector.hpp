@@ -3,15 +3,14 @@
 // best axis of each (axis_search.hpp), then normal, gaps and points (contact_normal.hpp). Also
 // carries last step's impulses to this step's contact points by feature key.
 
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "geometry/contact/contact_point.hpp"
+#include "geometry/contact/convex_elements.hpp"
+#include "geometry/contact/detection_part.hpp"
 
 namespace ballast {
-
-class WorkerTeam;
 
 /// Contact detection for one set of bodies, of one or several convex parts, with a memory from step
 /// to step. The memory makes it fast and does not change the result: contacts depend only on what
@@ -21,7 +20,6 @@ class ContactDetector {
   /// Throws std::invalid_argument as ConvexElements.
   ContactDetector(std::vector<ContactShape> shapes, const DetectionSettings& settings,
                   const Period& period = {});
-  ~ContactDetector();
 
   /// poses[i]: pose of body i. reach[i] [m]: bound on how far any point of body i moves until the
   /// next detection. A point is reported when its gap <= reach[a] + reach[b]. `contacts` is
@@ -30,15 +28,25 @@ class ContactDetector {
   void detect(std::span<const Pose> poses, std::span<const double> reach,
               std::vector<ContactPoint>& contacts, std::span<const Pose> ahead = {});
 
-  const DetectionCounters& counters() const;
+  const DetectionCounters& counters() const { return counters_; }
 
   /// Lets `team`, which must outlive the detector, do the work in at least `parts` parts (null: the
   /// caller works alone). The contacts do not depend on the number of parts.
   void use_team(WorkerTeam* team, int parts);
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  void check(std::span<const Pose> poses, std::span<const double> reach) const;
+  void share();
+  void put_together(std::vector<ContactPoint>& contacts);
+
+  DetectionSettings settings_;
+  size_t body_count_;
+  std::optional<ConvexElements> elements_;  // where bodies have parts or the world repeats itself
+  DetectedBodies bodies_;
+  BroadPhase broad_phase_;
+  WorkerTeam* team_ = nullptr;
+  std::vector<DetectionPart> parts_;  // they refer to bodies_ and settings_
+  DetectionCounters counters_;
 };
 
 // ---- warm starts

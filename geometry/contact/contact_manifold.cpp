@@ -208,7 +208,7 @@ std::span<const ManifoldPoint> ContactManifold::points(const PairFrame& pair,
   if (is_joint(pair, axis, limits, reference, face, incident.corners, &direction)) return {};
   const std::span<ClippedPoint> corners =
       clipper_.clip(pair, reference, face, incident.corners, &direction);
-  set_heights(corners, face.face, direction);
+  set_heights(corners, face.face, &direction);
   bool has_crossing = false;
   for (ClippedPoint p : corners) {
     if (p.height > limits.alert) continue;

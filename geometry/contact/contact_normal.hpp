@@ -85,15 +85,11 @@ inline double height_over_face(const CollisionShape::Face& face, const Vec3& x) 
   return face.normal.dot(x) - face.offset;
 }
 /// Sets the heights of all corners of the common part of two faces that the planes on the sides of
-/// the reference face have cut out.
-inline void set_heights(std::span<ClippedPoint> corners, const CollisionShape::Face& face) {
-  for (ClippedPoint& corner : corners) corner.height = height_over_face(face, corner.position);
-}
-/// The same where corners are cut, and heights measured, along `direction`: a unit vector out of
-/// the reference face, in its frame.
+/// the reference face have cut out. With `direction`, a unit vector out of the reference face in
+/// its frame, corners are cut, and heights measured, along it.
 inline void set_heights(std::span<ClippedPoint> corners, const CollisionShape::Face& face,
-                        const Vec3& direction) {
-  const double scale = 1.0 / face.normal.dot(direction);
+                        const Vec3* direction = nullptr) {
+  const double scale = direction ? 1.0 / face.normal.dot(*direction) : 1.0;
   for (ClippedPoint& corner : corners)
     corner.height = height_over_face(face, corner.position) * scale;
 }

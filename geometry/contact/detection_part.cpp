@@ -7,31 +7,31 @@
 
 namespace ballast {
 
-DetectedBodies::DetectedBodies(std::vector<ContactShape> bodies)
-    : shapes(std::move(bodies)),
-      is_image(shapes.size(), 0),
-      rotations(shapes.size()),
-      travel(shapes.size()) {
+DetectedBodies::DetectedBodies(std::vector<ContactShape> bodies, const ConvexElements* elements)
+    : shapes(std::move(bodies)), rotations(shapes.size()), travel(shapes.size()) {
   // Bodies with the same polyhedron share its tables.
-  std::map<const Polyhedron*, int> number;
+  std::map<const Polyhedron*, size_t> number;
   std::vector<const Polyhedron*> distinct;
-  for (const ContactShape& body : shapes) {
-    is_fixed.push_back(body.fixed);
-    table_of.push_back(-1);
-    if (!body.polyhedron) continue;
-    const auto [at, is_new] = number.emplace(body.polyhedron, static_cast<int>(distinct.size()));
-    if (is_new) distinct.push_back(body.polyhedron);
-    table_of.back() = at->second;
-  }
+  for (const ContactShape& body : shapes)
+    if (body.polyhedron && number.emplace(body.polyhedron, distinct.size()).second)
+      distinct.push_back(body.polyhedron);
   tables.reserve(distinct.size());
   for (const Polyhedron* polyhedron : distinct) tables.emplace_back(*polyhedron);
-  for (int i = 0; i < count(); ++i) bounds.push_back(shape(i) ? shape(i)->bounds() : BodyBounds{});
+  for (int i = 0; i < count(); ++i) {
+    const ContactShape& body = shapes[i];
+    const CollisionShape* table = body.polyhedron ? &tables[number[body.polyhedron]] : nullptr;
+    is_fixed.push_back(body.fixed);
+    bounds.push_back(table ? table->bounds() : BodyBounds{});
+    listed.push_back(
+        {table, body.fixed, elements ? elements->body(i) : -1, elements && elements->is_image(i)});
+  }
 }
 
 void DetectedBodies::take(std::span<const Pose> new_poses, std::span<const double> new_reach,
-                          WorkerTeam* team) {
+                          std::span<const Pose> new_ahead, WorkerTeam* team) {
   poses = new_poses;
   reach = new_reach;
+  ahead = new_ahead;
   if (previous_.empty()) previous_.assign(poses.begin(), poses.end());
   run_each(team, count(), /*together=*/64, [&](int i) {
     rotations[i] = poses[i].rotation.toRotationMatrix();
@@ -126,7 +126,7 @@ void DetectionPart::detect_plane(int plane, std::vector<ContactPoint>& contacts)
   for (int b = 0; b < bodies_.count(); ++b)
     if (!(height_of(b) > bodies_.bounds[b].circumradius + (reach[plane] + reach[b])) &&
         bodies_.shape(b) && !(bodies_.is_fixed[plane] && bodies_.is_fixed[b]) &&
-        !bodies_.is_image[b])
+        !bodies_.listed[b].image)
       near_.push_back(b);
   constexpr size_t ahead = 6;  // bodies
   for (size_t k = 0; k < near_.size(); ++k) {
@@ -168,20 +168,20 @@ void DetectionPart::detect_pair(BroadPhase& broad_phase, CandidatePair& candidat
   candidate.apart_below = -1.0;
   ManifoldLimits limits{alert, settings_.max_points,
                         bodies_.is_fixed[a] || bodies_.is_fixed[b] ? settings_.joint : -1.0};
-  SeparatingAxis axis;
   const double turn = bodies_.travel[a].turn + bodies_.travel[b].turn;
   if (settings_.use_cache && candidate.touching >= 0) {
     const PairFrame pair(bodies_.bounds[a], bodies_.bounds[b], b_in_a);
-    std::span<const ManifoldPoint> points;
-    switch (
-        broad_phase.memory(candidate.touching).look(pair, turn, limits, manifold_, axis, points)) {
+    TouchingPair::Answer known =
+        broad_phase.memory(candidate.touching).look(pair, turn, limits, manifold_);
+    switch (known.outcome) {
       case TouchingPair::PairOutcome::touching:
         ++counters_.proved_axes;
-        if (passes(candidate, limits, axis, contacts)) return;
-        return append(candidate, pair, axis, points, contacts);
+        if (passes(candidate, limits, known.axis, contacts)) return;
+        return append(candidate, pair, known.axis, known.points, contacts);
       case TouchingPair::PairOutcome::apart:
         ++counters_.cached_separations;
-        return bound_separated(candidate, between.norm(), axis.feature.kind, axis.separation);
+        return bound_separated(candidate, between.norm(), known.axis.feature.kind,
+                               known.axis.separation);
       case TouchingPair::PairOutcome::undecided:
         break;
     }
@@ -189,6 +189,7 @@ void DetectionPart::detect_pair(BroadPhase& broad_phase, CandidatePair& candidat
 
   const ShapePair pair(*bodies_.shape(a), *bodies_.shape(b), b_in_a);
   if (!settings_.use_cache) candidate.axis = {};
+  SeparatingAxis axis;
   const AxisOutcome outcome = search_.find(pair, alert, candidate.axis, axis);
   if (outcome == AxisOutcome::separated_by_hint) ++counters_.cached_separations;
   if (outcome == AxisOutcome::proved_by_hint) ++counters_.proved_axes;

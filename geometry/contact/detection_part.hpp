@@ -7,7 +7,7 @@
 
 #include "geometry/contact/axis_search.hpp"
 #include "geometry/contact/broad_phase.hpp"
-#include "geometry/contact/contact_point.hpp"
+#include "geometry/contact/convex_elements.hpp"
 #include "platform/worker_team.hpp"
 
 namespace ballast {
@@ -15,24 +15,25 @@ namespace ballast {
 /// The bodies at a detection: shapes, poses, and how far each has moved. All parts of a detection
 /// read them; detect() writes them before the parts begin.
 struct DetectedBodies {
-  explicit DetectedBodies(std::vector<ContactShape> bodies);
+  /// `elements`: says whose parts and images the bodies are; null: each is a body of its own.
+  explicit DetectedBodies(std::vector<ContactShape> bodies,
+                          const ConvexElements* elements = nullptr);
+  DetectedBodies(const DetectedBodies&) = delete;  // `listed` points into `tables`
+  DetectedBodies& operator=(const DetectedBodies&) = delete;
 
-  /// Takes the poses and reaches of this call; both must outlive it. `team` shares the work.
+  /// Takes the poses and reaches of this call, which must outlive it. `team` shares the work.
   void take(std::span<const Pose> new_poses, std::span<const double> new_reach,
-            WorkerTeam* team = nullptr);
+            std::span<const Pose> new_ahead = {}, WorkerTeam* team = nullptr);
 
   int count() const { return static_cast<int>(shapes.size()); }
   /// Null for a plane.
-  const CollisionShape* shape(int body) const {
-    return table_of[body] < 0 ? nullptr : &tables[table_of[body]];
-  }
+  const CollisionShape* shape(int body) const { return listed[body].shape; }
 
   std::vector<ContactShape> shapes;
   std::vector<char> is_fixed;
-  std::vector<char> is_image;          ///< an image one period on: planes meet only the body itself
-  std::vector<CollisionShape> tables;  ///< one per distinct polyhedron, in the order of first use
-  std::vector<int> table_of;           ///< of each body; -1 for planes
-  std::vector<BodyBounds> bounds;      ///< of all bodies, in one place; zero for planes
+  std::vector<CollisionShape> tables;    ///< one per distinct polyhedron, in order of first use
+  std::vector<BroadPhase::Body> listed;  ///< as the broad phase lists them
+  std::vector<BodyBounds> bounds;        ///< of all bodies, in one place; zero for planes
 
   std::span<const Pose> poses;      ///< of this call
   std::span<const Pose> ahead;      ///< at the next call if nothing is met; empty: unknown

@@ -74,17 +74,17 @@ struct AxisFeature {
 /// and points follow from it by the rule of contact_normal.hpp.
 struct SeparatingAxis {
   AxisFeature feature;
-  Vec3 direction;     ///< unit, in a's frame, from a to b, across the facet
-  double separation;  ///< gap along the direction [m]; negative = overlap
-  int support = -1;   ///< of a face: the other body's vertex nearest to its plane (smallest index
-                      ///< among equals)
+  Vec3 direction = Vec3::Zero();  ///< unit, in a's frame, from a to b, across the facet
+  double separation = 0.0;        ///< gap along the direction [m]; negative = overlap
+  int support = -1;  ///< of a face: the other body's vertex nearest to its plane (smallest index
+                     ///< among equals)
   /// Of two edges: the closest points of their lines, from the tails in edge lengths.
   double at_a = 0.0, at_b = 0.0;
-  double inside;  ///< how far inside the facet the origin projects [m]: of a face, where the
-                  ///< support vertex projects; of two edges, where the lines' closest points lie;
-                  ///< negative outside
-  double clearance;  ///< how much farther off than the touching vertex or edge all other vertices
-                     ///< are [m]; of two edges a lower bound
+  double inside = 0.0;  ///< how far inside the facet the origin projects [m]: of a face, where the
+                        ///< support vertex projects; of two edges, where the lines' closest points
+                        ///< lie; negative outside
+  double clearance = 0.0;  ///< how much farther off than the touching vertex or edge all other
+                           ///< vertices are [m]; of two edges a lower bound
 };
 
 /// Axes whose separations differ by less than this [m] count as equal, and a rule chooses: faces

@@ -100,21 +100,19 @@ void TouchingPair::record_faces(const ShapePair& pair, int support, double turn,
   }
 }
 
-TouchingPair::PairOutcome TouchingPair::look(const PairFrame& pair, double turn,
-                                             const ManifoldLimits& limits,
-                                             ContactManifold& manifold, SeparatingAxis& axis,
-                                             std::span<const ManifoldPoint>& points) const {
+TouchingPair::Answer TouchingPair::look(const PairFrame& pair, double turn,
+                                        const ManifoldLimits& limits,
+                                        ContactManifold& manifold) const {
   if (const auto* faces = std::get_if<Faces>(&contact_))
-    return look_at(*faces, pair, turn, limits, manifold, axis, points);
+    return look_at(*faces, pair, turn, limits, manifold);
   if (const auto* edges = std::get_if<Edges>(&contact_))
-    return look_at(*edges, pair, limits, manifold, axis, points);
-  return PairOutcome::undecided;
+    return look_at(*edges, pair, limits, manifold);
+  return {};
 }
 
-TouchingPair::PairOutcome TouchingPair::look_at(const Faces& faces, const PairFrame& pair,
-                                                double turn, const ManifoldLimits& limits,
-                                                ContactManifold& manifold, SeparatingAxis& axis,
-                                                std::span<const ManifoldPoint>& points) const {
+TouchingPair::Answer TouchingPair::look_at(const Faces& faces, const PairFrame& pair, double turn,
+                                           const ManifoldLimits& limits,
+                                           ContactManifold& manifold) const {
   const int own = feature_.reference();
   const CollisionShape::Face& reference = faces.reference;
   const std::span<const CollisionShape::Side> sides(faces.side.data(), faces.side_count);
@@ -127,66 +125,55 @@ TouchingPair::PairOutcome TouchingPair::look_at(const Faces& faces, const PairFr
   const double turned = turn - faces.turn + 1e-9 * (1.0 + turn);
   const double diameter = 2.0 * pair.bounds[1 - own]->circumradius;
   const double clearance = std::min(low.clearance, faces.clearance - diameter * turned);
-  if (!(clearance > proof_margin(pair)))
-    return PairOutcome::undecided;  // another vertex may be the lowest
+  if (!(clearance > proof_margin(pair))) return {};  // another vertex may be the lowest
   const double separation = face_separation_at(pair, own, reference, low.height);
-  axis.feature = feature_;
-  axis.separation = separation;
-  if (separation > limits.alert) return PairOutcome::apart;
+  if (separation > limits.alert)
+    return {PairOutcome::apart, {.feature = feature_, .separation = separation}};
   // The axis and its proof.
   const CollisionShape::Corner& support = incident[low.place];
   const auto side_at = [&](int k) -> const CollisionShape::Side& { return sides[k]; };
-  axis =
+  SeparatingAxis axis =
       face_axis(pair, feature_, reference, faces.side_count, side_at, support.position, separation);
   axis.support = support.vertex;
   axis.clearance = clearance;
-  if (!is_proved_best(pair, reference.isolation, axis)) return PairOutcome::undecided;
+  if (!is_proved_best(pair, reference.isolation, axis)) return {};
   // One point, or the common part of the two faces if the incident face is still the same.
-  if (is_lone_vertex(pair, axis, limits)) {
-    points =
-        manifold.lone_point(pair, axis, vertex_on_face(pair, axis, reference, support.position));
-    return PairOutcome::touching;
-  }
-  if (!(faces.lead[low.place] - 2.0 * turned > 2.0 * equal_cosines)) return PairOutcome::undecided;
+  if (is_lone_vertex(pair, axis, limits))
+    return {
+        PairOutcome::touching, axis,
+        manifold.lone_point(pair, axis, vertex_on_face(pair, axis, reference, support.position))};
+  if (!(faces.lead[low.place] - 2.0 * turned > 2.0 * equal_cosines)) return {};
   std::array<CollisionShape::Corner, most> corners;  // only their vertex and edge indices are read
   for (size_t k = 0; k < sides.size(); ++k)
     corners[k] = {faces.corner[k].vertex, faces.corner[k].edge, Vec3::Zero()};
-  points = manifold.points(
-      pair, axis, {{reference, {corners.data(), sides.size()}, sides}, incident, support.position},
-      limits);
-  return PairOutcome::touching;
+  const FaceOnFace met{
+      {reference, {corners.data(), sides.size()}, sides}, incident, support.position};
+  return {PairOutcome::touching, axis, manifold.points(pair, axis, met, limits)};
 }
 
-TouchingPair::PairOutcome TouchingPair::look_at(const Edges& edges, const PairFrame& pair,
-                                                const ManifoldLimits& limits,
-                                                ContactManifold& manifold, SeparatingAxis& axis,
-                                                std::span<const ManifoldPoint>& points) const {
+TouchingPair::Answer TouchingPair::look_at(const Edges& edges, const PairFrame& pair,
+                                           const ManifoldLimits& limits,
+                                           ContactManifold& manifold) const {
   const std::optional<EdgeSeparation> facet = edge_facet(pair, edges.a, edges.b);
-  if (!facet || facet->nearly_parallel) return PairOutcome::undecided;
-  axis.feature = feature_;
-  axis.separation = facet->separation;
-  if (facet->separation > limits.alert) return PairOutcome::apart;
-  axis = edge_axis(pair, feature_, edges.a, edges.b, *facet);
-  if (!is_proved_best(pair, 1.0, axis)) return PairOutcome::undecided;
+  if (!facet || facet->nearly_parallel) return {};
+  if (facet->separation > limits.alert)
+    return {PairOutcome::apart, {.feature = feature_, .separation = facet->separation}};
+  const SeparatingAxis axis = edge_axis(pair, feature_, edges.a, edges.b, *facet);
+  if (!is_proved_best(pair, 1.0, axis)) return {};
   // The crossing alone, or the common part of the faces beside the edges if they are the same.
   const EdgesMeeting meeting(pair, axis, edges.a, edges.b);
-  if (meeting.is_sharp()) {
-    points = manifold.crossing(pair, axis, edges.a, edges.b, limits);
-    return PairOutcome::touching;
-  }
-  if (meeting.face_a != edges.face[0] || meeting.face_b != edges.face[1])
-    return PairOutcome::undecided;
+  if (meeting.is_sharp())
+    return {PairOutcome::touching, axis, manifold.crossing(pair, axis, edges.a, edges.b, limits)};
+  if (meeting.face_a != edges.face[0] || meeting.face_b != edges.face[1]) return {};
   const auto plane = [&](const CollisionShape::Edge& edge, int body) {
     const bool is_left = edges.face[body] == edge.left;
     return CollisionShape::Face{is_left ? edge.left_normal : edge.right_normal,
                                 edges.beside[body].offset, 0.0};
   };
   const CollisionShape::Face face_a = plane(edges.a, 0), face_b = plane(edges.b, 1);
-  points = manifold.points(
-      pair, axis, meeting,
-      {edges.a, edges.b, {face_a, edges.beside[0].all(), {}}, {face_b, edges.beside[1].all(), {}}},
-      limits);
-  return PairOutcome::touching;
+  const EdgeOnEdge met{
+      edges.a, edges.b, {face_a, edges.beside[0].all(), {}}, {face_b, edges.beside[1].all(), {}}};
+  return {PairOutcome::touching, axis, manifold.points(pair, axis, meeting, met, limits)};
 }
 
 }  // namespace ballast

@@ -21,13 +21,16 @@ class TouchingPair {
   void record(const ShapePair& pair, const SeparatingAxis& axis, double turn, Heights& heights);
 
   enum class PairOutcome { undecided, apart, touching };
+  struct Answer {
+    PairOutcome outcome = PairOutcome::undecided;
+    /// apart: it separates by more than limits.alert, and only feature and separation are set.
+    /// touching: it is proved to be the best; its clearance is a lower bound.
+    SeparatingAxis axis = {};
+    std::span<const ManifoldPoint> points = {};  ///< valid until the manifold is used again
+  };
   /// Tests the pair in its present pose.
-  /// apart: the axis separates by more than limits.alert; `axis` has only feature and separation.
-  /// touching: the axis is proved to be the best; its clearance is a lower bound. `points` are the
-  /// pair's points, valid until the manifold is used again.
-  PairOutcome look(const PairFrame& pair, double turn, const ManifoldLimits& limits,
-                   ContactManifold& manifold, SeparatingAxis& axis,
-                   std::span<const ManifoldPoint>& points) const;
+  Answer look(const PairFrame& pair, double turn, const ManifoldLimits& limits,
+              ContactManifold& manifold) const;
 
  private:
   static constexpr size_t most = 4;  ///< faces with more corners are left to the shapes' tables
@@ -72,12 +75,10 @@ class TouchingPair {
 
   void record_edges(const ShapePair& pair, const SeparatingAxis& axis);
   void record_faces(const ShapePair& pair, int support, double turn, Heights& heights);
-  PairOutcome look_at(const Faces& faces, const PairFrame& pair, double turn,
-                      const ManifoldLimits& limits, ContactManifold& manifold, SeparatingAxis& axis,
-                      std::span<const ManifoldPoint>& points) const;
-  PairOutcome look_at(const Edges& edges, const PairFrame& pair, const ManifoldLimits& limits,
-                      ContactManifold& manifold, SeparatingAxis& axis,
-                      std::span<const ManifoldPoint>& points) const;
+  Answer look_at(const Faces& faces, const PairFrame& pair, double turn,
+                 const ManifoldLimits& limits, ContactManifold& manifold) const;
+  Answer look_at(const Edges& edges, const PairFrame& pair, const ManifoldLimits& limits,
+                 ContactManifold& manifold) const;
 
   AxisFeature feature_;
   std::variant<std::monostate, Faces, Edges> contact_;

@@ -44,75 +44,61 @@ constexpr Tolerance exact_tolerance{1e-10, 4e-9};
 /// too far or gives up: here the details are resolved.
 constexpr Tolerance finer_tolerance{1e-14, 4e-9};
 
-/// One qhull run and its memory.
-class QhullRun {
- public:
-  QhullRun(std::vector<double>& coordinates, double merge) {
-    qh_zero(&qh_, nowhere_.get());
-    // Pp: no warnings about precision. qhull wants the text writable.
-    std::string text = printed("qhull Pp E%g", merge);
-    const int code = qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3),
-                                  coordinates.data(), False, text.data(), nullptr, nowhere_.get());
-    if (code != qh_ERRnone) {
-      release();
-      throw InvalidPolyhedron("their hull is thinner than its numbers are exact");
-    }
+/// The corners of a facet, one after the other. `qh`: the name that qhull's macros expect.
+std::vector<int> loop_of(qhT* qh, facetT* facet) {
+  std::vector<int> vertices;
+  vertexT *vertex, **vertexp;
+  FOREACHvertex_(facet->vertices) vertices.push_back(qh_pointid(qh, vertex->point));
+  if (facet->simplicial) return vertices;
+  // a merged facet's vertices are unordered: chain its ridges, which are its edges in 3-d
+  std::vector<std::pair<int, int>> links;
+  ridgeT *ridge, **ridgep;
+  FOREACHridge_(facet->ridges) {
+    links.emplace_back(qh_pointid(qh, SETfirstt_(ridge->vertices, vertexT)->point),
+                       qh_pointid(qh, SETsecondt_(ridge->vertices, vertexT)->point));
   }
-  ~QhullRun() { release(); }
-  QhullRun(const QhullRun&) = delete;
-  QhullRun& operator=(const QhullRun&) = delete;
-
-  /// Vertex loops of the merged facets, in qhull's order of facets; orientation and starting vertex
-  /// as they come.
-  Loops loops() {
-    Loops result;
-    qhT* qh = &qh_;  // the name that qhull's macros expect
-    facetT* facet;
-    FORALLfacets { result.push_back(loop(facet)); }
-    return result;
+  // Goes from corner to corner along the ridge that does not lead back, until the loop closes.
+  std::vector<int> chain{links.front().first};
+  for (int at = links.front().second; at != chain.front();) {
+    chain.push_back(at);
+    const auto next = std::find_if(links.begin(), links.end(), [&](const auto& link) {
+      const int previous = chain[chain.size() - 2];
+      return (link.first == at && link.second != previous) ||
+             (link.second == at && link.first != previous);
+    });
+    if (next == links.end() || chain.size() > links.size())
+      throw InvalidPolyhedron("a face of the hull is no simple loop");
+    at = next->first == at ? next->second : next->first;
   }
+  return chain;
+}
 
- private:
-  /// qhull keeps two stores: large blocks, and a pool of small ones that is freed separately.
-  void release() {
-    qh_freeqhull(&qh_, !qh_ALL);
+/// Vertex loops of the merged facets, in qhull's order of facets; orientation and starting vertex
+/// as they come.
+Loops qhull_loops(std::vector<double>& coordinates, double merge) {
+  // Takes qhull's messages, which are written for its own users.
+  const std::unique_ptr<FILE, int (*)(FILE*)> nowhere(std::fopen("/dev/null", "w"), std::fclose);
+  qhT memory;
+  qhT* qh = &memory;
+  qh_zero(qh, nowhere.get());
+  // qhull keeps two stores: large blocks, and a pool of small ones that is freed separately.
+  const auto release = [](qhT* used) {
+    qh_freeqhull(used, !qh_ALL);
     int blocks, bytes;
-    qh_memfreeshort(&qh_, &blocks, &bytes);
-  }
-
-  std::vector<int> loop(facetT* facet) {
-    qhT* qh = &qh_;
-    std::vector<int> vertices;
-    vertexT *vertex, **vertexp;
-    FOREACHvertex_(facet->vertices) vertices.push_back(qh_pointid(qh, vertex->point));
-    if (facet->simplicial) return vertices;
-    // a merged facet's vertices are unordered: chain its ridges, which are its edges in 3-d
-    std::vector<std::pair<int, int>> links;
-    ridgeT *ridge, **ridgep;
-    FOREACHridge_(facet->ridges) {
-      links.emplace_back(qh_pointid(qh, SETfirstt_(ridge->vertices, vertexT)->point),
-                         qh_pointid(qh, SETsecondt_(ridge->vertices, vertexT)->point));
-    }
-    // Goes from corner to corner along the ridge that does not lead back, until the loop closes.
-    std::vector<int> chain{links.front().first};
-    for (int at = links.front().second; at != chain.front();) {
-      chain.push_back(at);
-      const auto next = std::find_if(links.begin(), links.end(), [&](const auto& link) {
-        const int previous = chain[chain.size() - 2];
-        return (link.first == at && link.second != previous) ||
-               (link.second == at && link.first != previous);
-      });
-      if (next == links.end() || chain.size() > links.size())
-        throw InvalidPolyhedron("a face of the hull is no simple loop");
-      at = next->first == at ? next->second : next->first;
-    }
-    return chain;
-  }
-
-  /// Takes qhull's messages, which are written for its own users.
-  const std::unique_ptr<FILE, int (*)(FILE*)> nowhere_{std::fopen("/dev/null", "w"), std::fclose};
-  qhT qh_;
-};
+    qh_memfreeshort(used, &blocks, &bytes);
+  };
+  const std::unique_ptr<qhT, decltype(release)> owner(qh, release);
+  // Pp: no warnings about precision. qhull wants the text writable.
+  std::string text = printed("qhull Pp E%g", merge);
+  const int code = qh_new_qhull(qh, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(),
+                                False, text.data(), nullptr, nowhere.get());
+  if (code != qh_ERRnone)
+    throw InvalidPolyhedron("their hull is thinner than its numbers are exact");
+  Loops loops;
+  facetT* facet;
+  FORALLfacets { loops.push_back(loop_of(qh, facet)); }
+  return loops;
+}
 
 /// Half the largest extent. Throws on NaN and on too few points.
 double half_extent(std::span<const Vec3> points) {
@@ -247,7 +233,7 @@ Loops hull_loops(const std::vector<Vec3>& points, const Tolerance& tolerance) {
     std::vector<double> coordinates;
     for (const int i : kept)
       coordinates.insert(coordinates.end(), points[i].begin(), points[i].end());
-    Loops loops = QhullRun(coordinates, tolerance.merge).loops();
+    Loops loops = qhull_loops(coordinates, tolerance.merge);
     for (auto& loop : loops)
       for (int& v : loop) v = kept[v];
     make_canonical(loops, points);

@@ -249,16 +249,16 @@ double largest_eigenvalue(const Eigen::Matrix3d& w) {
   return eigenvalue(w(0, 0), w(1, 0), w(2, 0), w(1, 1), w(2, 1), w(2, 2));
 }
 
-void ContactJudge::recompute_body_velocities(const DynamicsForm& dynamics,
-                                             const std::vector<int>& row_begin, const Impulses& r,
+void ContactJudge::recompute_body_velocities(const FrictionProblem& problem, const Impulses& r,
                                              bool masses_are_known) {
+  const DynamicsForm& dynamics = problem.dynamics;
   if (!masses_are_known && !masses_.has_masses_of(dynamics)) masses_.keep(dynamics);
   const int bodies = dynamics.body_count();
   hr_.resize(dynamics.dof_count());
   v_.resize(hr_.size());
   // Each thread sums the impulses on a share of the bodies, in the order of the contacts.
   run_ranges(team_, bodies, /*together=*/1 + bodies / size_of(team_), [&](int begin, int end) {
-    contact_to_body_impulse(dynamics, row_begin, r, begin, end, hr_);
+    contact_to_body_impulse(dynamics, problem.row_begin, r, begin, end, hr_);
     // v = v_free + M^-1 H^T r
     for (int b = begin; b < end; ++b) {
       const auto rows = Eigen::seqN(dynamics.dof_begin[b], dynamics.body_dofs(b));
@@ -363,8 +363,7 @@ ContactError ContactJudge::judge(const FrictionProblem& problem, const Impulses&
                                  bool masses_are_known) {
   require_rows(r, problem.row_count());
   const int contacts = problem.contact_count();
-  if (problem.has_dynamics)
-    recompute_body_velocities(problem.dynamics, problem.row_begin, r, masses_are_known);
+  if (problem.has_dynamics) recompute_body_velocities(problem, r, masses_are_known);
   if (contacts == 0) return {};
   // A stored W needs all of u and q. Otherwise they hold the rows of contacts that are not usual.
   if (problem.has_dynamics) {
@@ -415,17 +414,16 @@ double ContactJudge::fclib(const FrictionProblem& problem, const Impulses& r, do
     free_norm = u_.norm();
   }
   if (problem.has_dynamics && !is_free) {
-    recompute_body_velocities(problem.dynamics, problem.row_begin, r, /*masses_are_known=*/false);
+    recompute_body_velocities(problem, r, /*masses_are_known=*/false);
     body_to_contact_velocity(problem.dynamics, problem.row_begin, v_, u_);
   } else if (!is_free) {
     contact_velocity(problem, r, u_);
   }
   double squares = 0.0;
   for (int c = 0; c < problem.contact_count(); ++c) {
-    const int i = problem.row_begin[c];
-    const bool has_tangents = problem.contact_rows(c) == 3;
-    const auto triple = [=](const Eigen::VectorXd& x) {
-      return Triple{x[i], has_tangents ? x[i + 1] : 0.0, has_tangents ? x[i + 2] : 0.0};
+    const auto triple = [&](const Eigen::VectorXd& x) {
+      const Eigen::Vector3d rows = rows_of_contact(problem, x, c);
+      return Triple{rows[0], rows[1], rows[2]};
     };
     const Triple u = triple(u_), modified{u.n + problem.friction[c] * tangential(u), u.t, u.s};
     const Triple map = natural_map_of_modified(triple(r), modified, problem.friction[c], 1.0);

@@ -97,8 +97,8 @@ class ContactJudge {
     double free_square = 0.0, impulse_square = 0.0, velocity_square = 0.0;  ///< |q|^2, |r|^2, |u|^2
   };
 
-  void recompute_body_velocities(const DynamicsForm& dynamics, const std::vector<int>& row_begin,
-                                 const Impulses& r, bool masses_are_known);
+  void recompute_body_velocities(const FrictionProblem& problem, const Impulses& r,
+                                 bool masses_are_known);
   void look_at(const FrictionProblem& problem, int c, int k, JudgeBlock& block);
   Share judge_contacts(const FrictionProblem& problem, const Impulses& r, int begin, int end);
   Share gather(int contacts) const;

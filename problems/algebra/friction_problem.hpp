@@ -152,6 +152,12 @@ void for_normal_row(const FrictionProblem& problem, int c, const Visit& visit) {
   }
 }
 
+/// The islands, the independent parts of a problem in dynamics form: the contacts of each,
+/// ascending, in the order of their first bodies. Contacts join the bodies that can move; bodies
+/// without unknowns (undriven walls, fixed bodies) join nothing, and a contact between two of them
+/// belongs to no island.
+std::vector<std::vector<int>> contact_islands(const FrictionProblem& problem);
+
 /// The diagonal block of contact c in the stored W, as it is; entries beyond its rows are zero.
 Eigen::Matrix3d stored_diagonal_block(const FrictionProblem& problem, int c);
 

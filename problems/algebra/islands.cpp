@@ -1,8 +1,10 @@
-#include "problems/algebra/islands.hpp"
+// Finds the islands of a problem.
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
+
+#include "problems/algebra/friction_problem.hpp"
 
 namespace ballast {
 

@@ -8,7 +8,6 @@
 #include "platform/text.hpp"
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/delassus.hpp"
-#include "problems/algebra/islands.hpp"
 
 namespace ballast {
 namespace {

@@ -35,12 +35,9 @@ struct SideReader {
 struct SideWriter {
   Hdf5Writer& file;
 
-  template <typename Value>
-  void operator()(const char* name, const std::vector<Value>& values, std::size_t = 0) const {
-    file.add(path_of(name), values);
-  }
-  void operator()(const char* name, const Eigen::VectorXd& values, std::size_t = 0) const {
-    file.add(path_of(name), as_vector(values));
+  template <typename Numbers>
+  void operator()(const char* name, const Numbers& numbers, std::size_t = 0) const {
+    file.add(path_of(name), numbers);
   }
   void operator()(const char* name, double value) const { (*this)(name, std::vector{value}); }
   void operator()(const char* name, int value) const { (*this)(name, std::vector{value}); }

@@ -48,16 +48,6 @@ bool group(const GlobalProblem& global, Division& division) {
   return true;
 }
 
-/// Copies `columns` columns from `first` on, rows row_begin <= row < row_end, of a sparse matrix to
-/// a dense block with its own strides.
-void copy_block(const SparseColumns& from, int first, int columns, int row_begin, int row_end,
-                double* to, int row_stride, int column_stride) {
-  for (int k = 0; k < columns; ++k)
-    for (SparseColumns::InnerIterator entry(from, first + k); entry; ++entry)
-      if (entry.row() >= row_begin && entry.row() < row_end)
-        to[(entry.row() - row_begin) * row_stride + k * column_stride] = entry.value();
-}
-
 /// W = H^T M^-1 H and q = H^T M^-1 f + w. Uses LU: stored iteration matrices need not be quite
 /// symmetric.
 FrictionProblem condense(const GlobalProblem& global) {
@@ -90,37 +80,26 @@ std::vector<int> file_rows(const FrictionProblem& problem) {
 
 FrictionProblem divided(const GlobalProblem& global, const Division& division) {
   FrictionProblem problem;
-  problem.friction = global.mu;
   problem.has_dynamics = true;
   DynamicsForm& dynamics = problem.dynamics;
-  dynamics.dof_begin = division.dof_begin;
-  dynamics.body_a = division.body_a;
-  dynamics.body_b = division.body_b;
   // M is block diagonal: a body's mass is its diagonal block.
-  for (int b = 0; b < dynamics.body_count(); ++b) {
-    const int first = dynamics.dof_begin[b], dofs = dynamics.body_dofs(b);
-    const int begin = dynamics.mass_begin.back();
-    dynamics.mass.resize(begin + dofs * dofs);
-    copy_block(global.m, first, dofs, first, first + dofs, dynamics.mass.data() + begin, 1, dofs);
-    dynamics.mass_begin.push_back(begin + dofs * dofs);
+  const std::vector<int>& begin = division.dof_begin;
+  for (size_t b = 0; b + 1 < begin.size(); ++b) {
+    const int dofs = begin[b + 1] - begin[b];
+    dynamics.add_body(global.m.block(begin[b], begin[b], dofs, dofs));
   }
   // FCLIB has u = H^T v + w: a contact is three columns of its H. Their parts in the rows of either
   // body, transposed, are the blocks of our H.
-  std::vector<double> bias;
-  for (int c = 0; c < problem.contact_count(); ++c) {
-    const int rows = division.rows[c];
-    for (const int body : {dynamics.body_a[c], dynamics.body_b[c]}) {
-      if (body < 0) continue;
-      const int first = dynamics.dof_begin[body], dofs = dynamics.body_dofs(body);
-      dynamics.h.resize(dynamics.h.size() + rows * dofs);
-      copy_block(global.h, 3 * c, rows, first, first + dofs,
-                 dynamics.h.data() + dynamics.h.size() - rows * dofs, rows, 1);
-    }
-    dynamics.h_begin.push_back(static_cast<int>(dynamics.h.size()));
-    problem.row_begin.push_back(problem.row_begin.back() + rows);
-    for (int row = 0; row < rows; ++row) bias.push_back(global.w[3 * c + row]);
+  for (size_t c = 0; c < global.mu.size(); ++c) {
+    const int first = 3 * static_cast<int>(c), rows = division.rows[c];
+    const auto block_of = [&](int body) -> Eigen::MatrixXd {
+      if (body < 0) return Eigen::MatrixXd(rows, 0);
+      return global.h.block(begin[body], first, dynamics.body_dofs(body), rows).transpose();
+    };
+    const int a = division.body_a[c], b = division.body_b[c];
+    problem.add_contact(a, b, global.mu[c], block_of(a), block_of(b));
   }
-  dynamics.bias = as_eigen(bias);
+  dynamics.bias = own_rows(problem, global.w);
   return problem;
 }
 
@@ -318,7 +297,7 @@ void write_head(Hdf5Writer& file, const std::string& root) {
 void add_local(Hdf5Writer& file, const FrictionProblem& local) {
   write_head(file, "/fclib_local");
   write_matrix(file, "/fclib_local/W", local.delassus.w);
-  file.add("/fclib_local/vectors/q", as_vector(local.delassus.q));
+  file.add("/fclib_local/vectors/q", local.delassus.q);
   file.add("/fclib_local/vectors/mu", local.friction);
 }
 
@@ -326,8 +305,8 @@ void add_global(Hdf5Writer& file, const GlobalProblem& global) {
   write_head(file, "/fclib_global");
   write_matrix(file, "/fclib_global/M", global.m);
   write_matrix(file, "/fclib_global/H", global.h);
-  file.add("/fclib_global/vectors/f", as_vector(global.f));
-  file.add("/fclib_global/vectors/w", as_vector(global.w));
+  file.add("/fclib_global/vectors/f", global.f);
+  file.add("/fclib_global/vectors/w", global.w);
   file.add("/fclib_global/vectors/mu", global.mu);
 }
 
@@ -371,11 +350,11 @@ void write_solution(const std::filesystem::path& path, const FrictionProblem& pr
   contact_velocity(problem, solution.r, u);
   Hdf5Writer file(path, Hdf5Storage::plain);
   file.add_group("/solution");
-  file.add("/solution/r", as_vector(three_rows(problem, solution.r)));
-  file.add("/solution/u", as_vector(three_rows(problem, u)));
+  file.add("/solution/r", three_rows(problem, solution.r));
+  file.add("/solution/u", three_rows(problem, u));
   if (problem.has_dynamics) {
     body_velocity(problem.dynamics, problem.row_begin, solution.r, v);
-    file.add("/solution/v", as_vector(v));
+    file.add("/solution/v", v);
   }
   file.add_group("/ballast_answer");
   for (const auto& [name, value] : solution.numbers)

@@ -22,8 +22,7 @@ void impose(const ImposedMotion& motion, MechanicalSystem& system, MotionState& 
   RigidBody& body = system.bodies.back();
   body.imposed =
       std::make_shared<RigidBody::Imposed>(RigidBody::Imposed{motion, state.pose.back()});
-  body.freedom.translations = 0;
-  body.freedom.rotation = false;
+  body.freedom = {.translations = 0, .rotation = false};
   body.shape.fixed = true;
   follow(body, 0.0, state.pose.back(), state.velocity.back(), state.spin.back());
 }
@@ -88,8 +87,7 @@ void add_wall(MechanicalSystem& system, MotionState& state, const WallSpec& spec
   RigidBody body;
   body.name = spec.name;
   body.wall = spec;
-  body.freedom.translations = 0;
-  body.freedom.rotation = false;
+  body.freedom = {.translations = 0, .rotation = false};
   if (spec.motion == WallMotion::driven) {
     // Its one unknown, the velocity along -normal, is positive outwards.
     body.mass = spec.mass;

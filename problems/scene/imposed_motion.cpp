@@ -1,7 +1,8 @@
-#include "problems/scene/imposed_motion.hpp"
+// The values and rates of imposed motions.
 
 #include <algorithm>
-#include <numbers>
+
+#include "problems/scene/scene.hpp"
 
 namespace ballast {
 namespace {

@@ -49,26 +49,17 @@ void write_table(const toml::table& table, const std::string& path, std::string&
   }
 }
 
-/// The value as toml++ keeps it.
+/// The value as toml++ keeps it; of a list every entry.
 template <class Value>
 auto as_toml(const Value& value) {
-  if constexpr (std::is_same_v<Value, Vec3>) {
-    return toml::array{value.x(), value.y(), value.z()};
-  } else if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
-    toml::array array;
-    for (const std::string& text : value) array.push_back(text);
-    return array;
-  } else if constexpr (std::is_same_v<Value, NumberRows>) {
-    toml::array rows;
-    for (const std::vector<double>& row : value) {
-      toml::array& kept = *rows.emplace_back<toml::array>().as_array();
-      for (const double number : row) kept.push_back(number);
-    }
-    return rows;
-  } else if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>) {
+  if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>) {
     return static_cast<std::int64_t>(value);
-  } else {
+  } else if constexpr (std::is_arithmetic_v<Value> || std::is_same_v<Value, std::string>) {
     return value;
+  } else {
+    toml::array list;
+    for (const auto& entry : value) list.push_back(as_toml(entry));
+    return list;
   }
 }
 

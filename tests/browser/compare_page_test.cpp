@@ -1,7 +1,6 @@
 // The page of a comparison in a real browser: the tests ask as a reader does and check the page.
 
 #include "experiments/compare/compare_page.hpp"
-#include "experiments/page/html.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"

@@ -1,7 +1,6 @@
 // The figures and tables of any page in a real browser.
 
-#include "experiments/page/html.hpp"
-#include "experiments/page/plot.hpp"
+#include "experiments/page/page.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/text.hpp"
 #include "tests/browser/driven_box.hpp"

@@ -1,8 +1,6 @@
 // The page of a closed loop in a real browser: charts replace the drawn figures.
 
-#include "experiments/compare/live_page.hpp"
-#include "experiments/page/html.hpp"
-#include "experiments/page/plot.hpp"
+#include "experiments/compare/live.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "tests/experiments/compare/hand_made_live.hpp"
 #include "tests/support/browser.hpp"

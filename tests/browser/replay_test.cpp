@@ -5,8 +5,7 @@
 #include <set>
 
 #include "experiments/record/record_file.hpp"
-#include "experiments/view/view_data.hpp"
-#include "experiments/view/view_page.hpp"
+#include "experiments/view/view.hpp"
 #include "platform/text.hpp"
 #include "tests/browser/driven_box.hpp"
 #include "tests/support/captured_run.hpp"
@@ -204,9 +203,10 @@ TEST_CASE("two backends' errors stand side by side, and the worst contact is fou
   CHECK(browser.js("ballastReplay.errors.shown") == Json{1, 1});
   browser.js("location.hash = 'play=0'; new Promise((go) => setTimeout(go, 500))");
   CHECK(browser.js("ballastReplay.errors.shown") == Json{0, 1});
-  browser.open(place.path() / "errors.html", "t=abc&rate=x&view=a,b,c,d,e,f&budget=z", is_ready);
-  CHECK(browser.js("[ballastReplay.time, ballastReplay.rate, ballastReplay.camera.distance]"
-                   ".every(Number.isFinite)") == true);
+  browser.open(place.path() / "errors.html", "t=abc&rate=x&picked=x&view=a,b,c,d,e,f&budget=z",
+               is_ready);
+  CHECK(browser.js("[ballastReplay.time, ballastReplay.rate, ballastReplay.options.picked, "
+                   "ballastReplay.camera.distance].every(Number.isFinite)") == true);
 }
 
 TEST_CASE("what is most wrong stands out from a light and a dark ground") {
@@ -442,6 +442,8 @@ TEST_CASE("what is chosen stands in the address, and shows the same again") {
   browser.wait_for("location.hash.includes('view=z')");
   CHECK(browser.js("location.hash.slice(1).split('&').sort()") ==
         Browser::Json{"play=0", "view=z"});
+  browser.js("ballastReplay.camera.zoom(0.5); ballastReplay.touched()");
+  browser.wait_for("!location.hash.includes('view=z')");  // the name would lose the distance
 }
 
 }  // namespace ballast

@@ -41,7 +41,7 @@ TEST_CASE("members have parts that follow each other, only the caller takes thos
     for (const int parts : {2, 7, 64}) {
       std::vector<std::thread::id> by(static_cast<size_t>(parts));
       for (int round = 0; round < 200; ++round) {
-        team.run(parts, [&](int part) {
+        run_parts(&team, parts, [&](int part) {
           by[static_cast<size_t>(part)] = std::this_thread::get_id();
           if (part == 0) std::this_thread::yield();  // gives the other threads time
         });
@@ -78,13 +78,13 @@ TEST_CASE("ranges cover their numbers once, and other work is done beside them")
   }
 }
 
-TEST_CASE("a task is over when run() returns: what it wrote can be read") {
+TEST_CASE("a task is over when run_parts() returns: what it wrote can be read") {
   WorkerTeam team;
   team.resize(3);
   std::vector<double> value(64, 1.0), next(64);
   for (int round = 0; round < 500; ++round) {
-    team.run(64, [&](int i) { next[i] = 0.5 * (value[i] + value[(i + 1) % 64]) + i; });
-    team.run(64, [&](int i) { value[i] = next[i]; });
+    run_parts(&team, 64, [&](int i) { next[i] = 0.5 * (value[i] + value[(i + 1) % 64]) + i; });
+    run_parts(&team, 64, [&](int i) { value[i] = next[i]; });
   }
   std::vector<double> expected(64, 1.0), later(64);
   for (int round = 0; round < 500; ++round) {
@@ -103,7 +103,7 @@ TEST_CASE("a member that stops within a task takes no part of the next one, thou
     for (int round = 0; round < 40; ++round) {
       const int parts = round % 2 == 0 ? 2 : 9;
       std::vector<std::atomic<int>> count(9);
-      team.run(parts, [&](int part) { ++count[part]; });
+      run_parts(&team, parts, [&](int part) { ++count[part]; });
       for (int part = 0; part < 9; ++part) REQUIRE(count[part] == (part < parts ? 1 : 0));
     }
   }
@@ -114,7 +114,7 @@ TEST_CASE("the caller and each of the others take part") {
   team.resize(3);
   std::vector<std::thread::id> by(3);
   std::atomic<int> begun{0};
-  team.run(3, [&](int part) {
+  run_parts(&team, 3, [&](int part) {
     by[part] = std::this_thread::get_id();
     // No thread goes on before all have begun, so that none can do two parts.
     for (++begun; begun < 3;) std::this_thread::yield();
@@ -130,7 +130,7 @@ TEST_CASE("what a member that is held up has not begun is done by the others") {
   for (int round = 0; round < 20; ++round) {
     std::atomic<int> done{0}, held{0};
     std::vector<int> count(10, 0);
-    team.run(10, [&](int part) {
+    run_parts(&team, 10, [&](int part) {
       // The other thread's first part lasts until all other parts are done.
       if (std::this_thread::get_id() != caller && ++held == 1)
         while (done < 9) std::this_thread::yield();
@@ -159,7 +159,7 @@ TEST_CASE("the caller works alone when it is told so, and the others again when 
     CHECK(team.size() == (everybody ? 3 : 1));
     std::vector<std::thread::id> who(9);
     for (int round = 0; round < 50; ++round)
-      team.run(9, [&](int part) { who[part] = std::this_thread::get_id(); });
+      run_parts(&team, 9, [&](int part) { who[part] = std::this_thread::get_id(); });
     if (!everybody)
       CHECK(std::set<std::thread::id>(who.begin(), who.end()) ==
             std::set<std::thread::id>{std::this_thread::get_id()});

@@ -24,7 +24,7 @@ function switches_of(name, words, all) {
 
 function asks() {
   const counts = element("p", { class: "note", "aria-live": "polite" });
-  const [least, most] = extent(all_contacts);
+  const [least, most] = extent(rows.map((row) => row.contacts));
   const save = (name, list) => download(name, [column_names, ...list.map((row) => row.cells)]
     .map(csv_line).join("\n") + "\n");
   const bar = element("section", { class: "asks", id: "asks", "aria-label": "What is shown" },

@@ -35,7 +35,6 @@ const all_families = unique(rows.map((row) => row.family));
 const all_starts = unique(rows.map((row) => row.start));
 const all_tolerances = unique(rows.map((row) => row.tolerance_text))
   .sort((a, b) => Number(b) - Number(a));
-const all_contacts = rows.map((row) => row.contacts);
 
 /// The title and the style of a backend's curves.
 const style_of = (solver) => ({ title: solver, ...curve_style(all_solvers.indexOf(solver)) });
@@ -45,14 +44,12 @@ const chosen = {
   one: (name, all) => (all.includes(choice.get(name)) ? choice.get(name) : all[0]),
   get tolerance() { return this.one("tolerance", all_tolerances); },
   get start() { return this.one("start", all_starts); },
-  least: () => Number(choice.get("from", "0")) || 0,
-  most: () => Number(choice.get("to")) || Infinity,
-  has_case(row) {
-    return !choice.has("without_family", row.family) && row.contacts >= this.least() &&
-      row.contacts <= this.most() &&
+  has(row) {
+    const least = Number(choice.get("from", "0")) || 0, most = Number(choice.get("to")) || Infinity;
+    return !choice.has("without", row.solver) && !choice.has("without_family", row.family) &&
+      row.contacts >= least && row.contacts <= most &&
       row.case.toLowerCase().includes(choice.get("find").toLowerCase());
   },
-  has: (row) => chosen.has_case(row) && !choice.has("without", row.solver),
 };
 
 /// Why a row is not solved, in a few words.

@@ -11,9 +11,10 @@ class Camera {
     this.data = data;
     this.home();
   }
+  get homeDistance() { return 3.9 * this.data.radius; }
   home() {
     Object.assign(this, { target: [...this.data.centre], yaw: -52, pitch: 20,
-      distance: 3.9 * this.data.radius });
+      distance: this.homeDistance });
   }
   // Sets the view along an axis: "x", "-x", ...; other names change nothing.
   along(name) {
@@ -21,10 +22,11 @@ class Camera {
     const [yaw, pitch] = axisViews[name];
     Object.assign(this, { target: [...this.data.centre], yaw, pitch });
   }
-  // The name of the axis along which the camera looks; empty: none.
+  // The name of the axis along which the camera looks, from its first distance; empty: none.
   name() {
     return Object.keys(axisViews).find((name) =>
       axisViews[name][0] === this.yaw && axisViews[name][1] === this.pitch &&
+      this.distance === this.homeDistance &&
       this.target.every((v, k) => v === this.data.centre[k])) || "";
   }
   get eye() {

@@ -44,7 +44,7 @@ function placeIn(times, time) {
 
 class Data {
   static async load() {
-    const kinds = { shapes: Uint16Array, grains: Float32Array, positions: Uint16Array,
+    const kinds = { shapes: Uint16Array, masses: Float32Array, positions: Uint16Array,
       rotations: Uint16Array, velocities: Uint8Array, laps: Int16Array, walls: Float32Array,
       series: Float32Array, contact_bodies: Int32Array, contact_places: Uint8Array,
       contact_forces: Uint16Array, contact_mobilised: Uint8Array, errors: Uint8Array };
@@ -64,8 +64,8 @@ class Data {
     this.rotations = historyOf(parts.rotations, 4 * head.grains, 2);
     this.velocities = historyOf(parts.velocities, columns, 1);
     this.laps = historyOf(parts.laps, head.grains, 1);
-    this.mass = parts.grains.filter((_, k) => k % 2 === 0);
-    this.size = parts.grains.filter((_, k) => k % 2)
+    this.mass = parts.masses.filter((_, k) => k % 2 === 0);
+    this.size = parts.masses.filter((_, k) => k % 2)
       .map((volume) => Math.cbrt(6 * volume / Math.PI));
     this.wallStates = parts.walls;
     this.readShapes(parts.shapes);

@@ -6,9 +6,15 @@ class ErrorView {
     this.data = data;
     this.solves = data.head.errors;
     this.isOn = this.solves.length > 0;
-    this.budget = this.isOn ? this.solves[0].iterations.length >> 1 : 0;
-    this.shown = [0, Math.min(1, this.solves.length - 1)];  // which solve each picture shows
     this.worst = -1;
+  }
+
+  // The first choices: the backend of each picture, the budget of iterations, grains as glass.
+  get first() {
+    if (!this.isOn) return {};
+    const [left, right = left] = this.solves, { iterations } = left;
+    return { left: left.backend, right: right.backend,
+      budget: String(iterations[iterations.length >> 1]), colour: "none", grains: "ghost" };
   }
 
   // The decadic logarithm of the error over g h of contact c in a picture.
@@ -41,65 +47,39 @@ class ErrorView {
     return worst;
   }
 
-  // Takes over the choices in the page's address, #left=pgs&right=auto&budget=100, and the first
-  // choice for each that it lacks.
-  read() {
-    const { iterations } = this.solves[0], last = this.solves.length - 1;
-    this.shown = ["left", "right"].map((side, k) => {
-      const asked = this.solves.findIndex((solve) => solve.backend === choice.get(side));
-      return asked < 0 ? Math.min(k, last) : asked;
-    });
-    const budget = +choice.get("budget", iterations[iterations.length >> 1]);
-    this.budget = Math.max(0, iterations.findLastIndex((one) => one <= budget));
-    ["left", "right"].forEach((side, k) => {
-      if (part(side)) part(side).value = this.shown[k];
-    });
-    part("budget").value = this.budget;
-    this.say();
+  // Takes over the reader's choices, which may be from an address: left=pgs&right=auto&budget=100.
+  // The first choice stands for a backend that is not there, the next smaller budget for a budget.
+  take(options) {
+    const { iterations } = this.solves[0], names = this.solves.map(({ backend }) => backend);
+    for (const side of ["left", "right"])
+      if (!names.includes(options[side])) options[side] = this.first[side];
+    // which solve each picture shows, and the place of the budget
+    this.shown = [options.left, options.right].map((name) => names.indexOf(name));
+    this.budget = Math.max(0, iterations.findLastIndex((one) => one <= +options.budget));
+    options.budget = String(iterations[this.budget]);
   }
 
-  // The current choices as the address holds them.
-  words() {
-    if (!this.isOn) return {};
-    const [left, right] = this.shown.map((k) => this.solves[k].backend);
-    return { left, right, budget: String(this.solves[0].iterations[this.budget]) };
-  }
-
-  // Builds the controls: the backend of each picture, the budget, a button to the worst contact.
-  build(replay) {
-    if (!this.isOn) return;
-    const place = part("errors"), { iterations } = this.solves[0];
-    const names = this.solves.map((solve, k) => [String(k), solve.backend]);
-    const two = this.solves.length > 1;
-    const changed = () => {
-      this.say();
-      replay.touched();
-    };
-    const choose = (side, words, picture) =>
-      selection(side, words, names, String(this.shown[picture]), (chosen) => {
-        this.shown[picture] = +chosen;
-        changed();
-      });
-    place.hidden = false;
-    place.replaceChildren(choose("left", two ? "left" : "backend", 0),
-      ...two ? [choose("right", "right", 1)] : [],
-      slider("budget", "iterations", 0, iterations.length - 1, this.budget, 1, (budget) => {
-        this.budget = budget;
-        changed();
-      }),
+  // The controls: the backend of each picture, the budget, a button to the worst contact.
+  controls(replay) {
+    if (!this.isOn) return [];
+    const { iterations } = this.solves[0], two = this.solves.length > 1;
+    const names = this.solves.map(({ backend }) => [backend, backend]);
+    return [optionOf(replay, "left", two ? "left" : "backend", names),
+      ...two ? [optionOf(replay, "right", "right", names)] : [],
+      slider("budget", "iterations", 0, iterations.length - 1, 1,
+        (budget) => replay.set({ budget: String(iterations[budget]) })),
       element("output", { id: "replay-budgettext" }),
       control("worst", "worst contact", "Look at the most wrong contact of the left picture",
         () => {
           this.worst = this.findWorst(0);
           replay.camera.target = this.data.contactPlace(this.worst);
           replay.camera.distance = 14 * replay.marks.meanReach;
-          changed();
-        }));
-    this.say();
+          replay.set({});
+        })];
   }
 
-  // Writes the budget and the rms errors in words.
-  say() {
+  // Shows the budget, the rms errors in words, and the legend.
+  show() {
     const { iterations } = this.solves[0];
     const number = (v) => v.toExponential(1).replace("-", "\u2212");
     const pictures = this.solves.length > 1 ? this.shown : this.shown.slice(0, 1);
@@ -110,10 +90,8 @@ class ErrorView {
     pictures.forEach((k, picture) => {
       if (part("who" + picture)) part("who" + picture).textContent = this.solves[k].backend;
     });
+    part("budget").value = this.budget;  // the slider goes from budget to budget
     part("budgettext").textContent = iterations[this.budget] + " \u2014 " + words.join(", ");
-  }
-
-  drawLegend() {
     const legend = part("legend");
     const ticks = [[0, "1e\u22126"], [1 / 3, "1e\u22124"], [2 / 3, "1e\u22122"], [1, "1"]];
     legend.hidden = false;

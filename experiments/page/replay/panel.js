@@ -1,18 +1,22 @@
 // The page's elements around the picture: buttons, choices, legend, facts about a picked grain.
 
-// The last argument of each is called when the reader uses the control, with the chosen value.
-const selection = (id, words, options, chosen, changed) => element("label", {}, words,
+// The last argument of each is called when the reader uses the control, with the chosen value. The
+// replay sets what they show.
+const selection = (id, words, options, changed) => element("label", {}, words,
   element("select", { id: "replay-" + id, onchange: (event) => changed(event.target.value) },
-    ...options.map(([value, text]) =>
-      element("option", { value, selected: value === chosen }, text))));
-const slider = (id, words, min, max, value, step, moved) => element("label", {}, words,
-  element("input", { id: "replay-" + id, type: "range", min, max, step, value,
+    ...options.map(([value, text]) => element("option", { value }, text))));
+const slider = (id, words, min, max, step, moved) => element("label", {}, words,
+  element("input", { id: "replay-" + id, type: "range", min, max, step,
     "aria-label": words || id, oninput: (event) => moved(+event.target.value) }));
 const control = (id, text, title, pressed) =>
   button(text, pressed, { id: "replay-" + id, title, "aria-label": title });
 const tick = (id, words, turned) => element("label", {},
   element("input", { id: "replay-" + id, type: "checkbox",
     onchange: (event) => turned(event.target.checked) }), words);
+
+// A selection of the replay's option of that name.
+const optionOf = (replay, name, words, values) =>
+  selection(name, words, values, (value) => replay.set({ [name]: value }));
 
 // Builds all elements, which replace the still picture.
 function buildPanel(replay) {
@@ -37,28 +41,26 @@ function buildPanel(replay) {
       control("back", "\u25c2\u25c2", "One stored frame back", () => replay.step(-1)),
       control("play", "\u25b6", "Play", () => replay.setPlaying(!replay.playing)),
       control("on", "\u25b8\u25b8", "One stored frame on", () => replay.step(1)),
-      slider("time", "", data.begin, data.end, data.begin, "any", (time) => {
+      slider("time", "", data.begin, data.end, "any", (time) => {
         replay.setPlaying(false);
         replay.setTime(time);
       }),
       element("output", { id: "replay-clock" }),
       selection("rate", "speed", [["0.01", "1/100"], ["0.02", "1/50"], ["0.05", "1/20"],
-        ["0.1", "1/10"], ["0.2", "1/5"], ["0.5", "1/2"], ["1", "1"], ["2", "2"]], "0.2", (rate) => {
+        ["0.1", "1/10"], ["0.2", "1/5"], ["0.5", "1/2"], ["1", "1"], ["2", "2"]], (rate) => {
         replay.rate = +rate;
         replay.touched();
       })),
     element("div", { class: "controls" },
-      selection("colour", "colour", colours, replay.options.colour,
-        (colour) => replay.set({ colour })),
-      selection("grains", "grains", [["solid", "solid"], ["ghost", "as glass"],
-        ["hidden", "hidden"]], "solid", (grains) => replay.set({ grains })),
+      optionOf(replay, "colour", "colour", colours),
+      optionOf(replay, "grains", "grains",
+        [["solid", "solid"], ["ghost", "as glass"], ["hidden", "hidden"]]),
       ...hasContacts ? [tick("chains", "force chains", marked("chains", "points")),
-        slider("threshold", "above", 0, 5, 1, "any", (threshold) => replay.set({ threshold })),
+        slider("threshold", "above", 0, 5, "any", (threshold) => replay.set({ threshold })),
         element("output", { id: "replay-thresholdtext" }),
         tick("points", "contact points", marked("points", "chains"))] : [],
-      selection("cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]], "",
-        (cut) => replay.set({ cut })),
-      slider("cutat", "", 0, 1, 0.5, "any", (cutAt) => replay.set({ cutAt })),
+      optionOf(replay, "cut", "cut", [["", "off"], ["x", "x"], ["y", "y"], ["z", "z"]]),
+      slider("cutat", "", 0, 1, "any", (cutAt) => replay.set({ cutAt })),
       element("span", { class: "views-along" }, "view ",
         ...[["home", "home"], ["x", "x"], ["-x", "\u2212x"], ["y", "y"], ["-y", "\u2212y"],
           ["z", "z"]].map(([name, text]) => control("view" + name, text,
@@ -66,7 +68,8 @@ function buildPanel(replay) {
             if (name === "home") camera.home(); else camera.along(name);
             replay.touched();
           })))),
-    element("div", { class: "controls", id: "replay-errors", hidden: true }),
+    element("div", { class: "controls", hidden: !replay.errors.isOn },
+      ...replay.errors.controls(replay)),
     element("div", { id: "replay-plots", role: "img",
       "aria-label": "Curves of the run: a click goes to that moment" }));
   part("sentence").hidden = true;

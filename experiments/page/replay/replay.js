@@ -6,17 +6,16 @@ class Replay {
     this.camera = new Camera(data);
     this.shades = new Shades(data);
     this.marks = new Marks(data);
+    this.errors = new ErrorView(data);
     this.time = data.begin;
     this.rate = 0.2;
     this.playing = this.moving = false;
     this.options = { colour: data.times.length > 1 ? "speed" : "size", grains: "solid",
-      chains: false, points: false, threshold: 1, cut: "", cutAt: 0.5, picked: -1 };
+      chains: false, points: false, threshold: 1, cut: "", cutAt: 0.5, picked: -1,
+      ...this.errors.first };
     this.quality = 1;
     buildPanel(this);
     this.mesh = new Mesh(data);
-    this.errors = new ErrorView(data);
-    if (this.errors.isOn) Object.assign(this.options, { colour: "none", grains: "ghost" });
-    this.errors.build(this);
     this.stages = ["canvas", "second"].filter(part).map((id) =>
       new Stage(part(id), data, this.mesh));
     this.plots = new Plots(part("plots"), data, (time) => {
@@ -65,17 +64,17 @@ class Replay {
     Object.assign(this.options, changes);
     const { options } = this;
     if (!(options.colour in this.shades.choices)) options.colour = "none";
-    for (const name of ["colour", "grains", "cut"]) part(name).value = options[name];
-    part("cutat").value = options.cutAt;
+    if (this.errors.isOn) this.errors.take(options);
+    for (const [name, value] of Object.entries(options)) {
+      const input = part(name.toLowerCase());
+      if (input) input[typeof value === "boolean" ? "checked" : "value"] = value;
+    }
     part("cutat").disabled = !options.cut;
-    for (const name of ["chains", "points"])
-      if (part(name)) part(name).checked = options[name];
     if (part("threshold")) {
       part("threshold").disabled = !options.chains;
-      part("threshold").value = options.threshold;
       part("thresholdtext").textContent = (+options.threshold).toFixed(1) + " × mean";
     }
-    if (this.errors.isOn) this.errors.drawLegend();
+    if (this.errors.isOn) this.errors.show();
     else drawLegend(this.shades, options, this.marks);
     this.touched();
   }
@@ -131,9 +130,9 @@ class Replay {
   // behind #, so that a link or a reload shows the same, without those that are as at first:
   // #t=0.3&colour=displacement&cut=y&cutAt=0.5&chains=1&view=x&play=0.
   words() {
-    const { options, camera, data, errors, time, playing, rate } = this;
+    const { options, camera, data, time, playing, rate } = this;
     const rounded = (value) => String(+(+value).toPrecision(5));
-    const words = { ...errors.words(), rate: String(rate), play: playing ? "1" : "0",
+    const words = { rate: String(rate), play: playing ? "1" : "0",
       view: camera.name() || [camera.yaw, camera.pitch, camera.distance, ...camera.target]
         .map(rounded).join(","), t: rounded(playing ? data.begin : time) };
     for (const [name, value] of Object.entries(options))
@@ -145,8 +144,9 @@ class Replay {
     const { camera, data, defaults } = this;
     for (const [name, value] of Object.entries(defaults)) {
       const said = choice.get(name, String(+value));
+      const number = Number.isFinite(+said) ? +said : value;
       this.options[name] = typeof value === "string" ? choice.get(name, value) :
-        typeof value === "boolean" ? said === "1" : +said;
+        typeof value === "boolean" ? said === "1" : number;
     }
     camera.home();
     const view = choice.get("view"), numbers = view.split(",").map(Number);
@@ -154,7 +154,6 @@ class Replay {
       [camera.yaw, camera.pitch, camera.distance, ...camera.target] = numbers;
     else camera.along(view);
     part("rate").value = this.rate = +choice.get("rate") || +this.first.rate;
-    if (this.errors.isOn) this.errors.read();
     this.time = clamp(+choice.get("t", data.begin) || data.begin, data.begin, data.end);
     this.setPlaying(!this.isCalm && choice.get("play") !== "0");
   }

@@ -2,13 +2,9 @@
 
 #include "experiments/bench/step_bench.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
-#include <tuple>
 
 #include "experiments/step/time_step.hpp"
-#include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/bench/tiny_box.hpp"
 

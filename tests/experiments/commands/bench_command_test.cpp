@@ -1,6 +1,5 @@
 // The command `ballast bench`: two results side by side, and a short measurement.
 
-#include <cmath>
 #include <filesystem>
 #include <sstream>
 

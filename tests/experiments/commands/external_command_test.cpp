@@ -60,7 +60,7 @@ fs::path answer_of_nan(const fs::path& file, int contacts, int id) {
   request.id = id;
   ExternalAnswer answer;
   answer.status = static_cast<int>(StopReason::reached_tolerance);
-  answer.impulses = Impulses::Constant(3 * contacts, std::nan(""));
+  answer.solved.impulses = Impulses::Constant(3 * contacts, std::nan(""));
   write_answer(file, request, answer);
   return file;
 }

@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "experiments/page/html.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
 #include "tests/catch.hpp"

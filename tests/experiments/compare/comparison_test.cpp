@@ -31,6 +31,8 @@ CompareOptions options_in(const fs::path& folder, std::vector<ComparedSolver> so
   return options;
 }
 
+void untold(const CompareRow&, bool, size_t, size_t) {}
+
 std::vector<CompareCase> one_case() { return compare_cases({"known:contacts=12,bodies=6,seed=3"}); }
 
 }  // namespace
@@ -43,7 +45,6 @@ TEST_CASE("Rows that are there are not made again, damage or other options make 
   int made = 0;
   const auto count = [&](const CompareRow&, bool was_stored, size_t, size_t) {
     made += !was_stored;
-    return true;
   };
   const std::vector<CompareRow> first = run_comparison(one_case(), options, count);
   CHECK(made == 4);
@@ -76,7 +77,6 @@ TEST_CASE("A comparison goes on after kill -9") {
   if (child == 0) {
     run_comparison(cases, options, [](const CompareRow&, bool, size_t done, size_t) {
       if (done == 7) kill(getpid(), SIGKILL);
-      return true;
     });
     _exit(0);
   }
@@ -84,11 +84,9 @@ TEST_CASE("A comparison goes on after kill -9") {
   waitpid(child, &status, 0);
   REQUIRE(WIFSIGNALED(status));
   int made = 0;
-  const std::vector<CompareRow> rows =
-      run_comparison(cases, options, [&](const CompareRow&, bool was_stored, size_t, size_t) {
-        made += !was_stored;
-        return true;
-      });
+  const std::vector<CompareRow> rows = run_comparison(
+      cases, options,
+      [&](const CompareRow&, bool was_stored, size_t, size_t) { made += !was_stored; });
   CHECK(rows.size() == 30);
   CHECK(made == 23);
   for (const CompareRow& row : rows) CHECK(row.verdict == Verdict::solved);
@@ -104,7 +102,6 @@ TEST_CASE("An interrupt stops the comparison after the row under way") {
     const InterruptGuard guard;
     rows = run_comparison(cases, options, [](const CompareRow&, bool, size_t done, size_t) {
       if (done == 2) raise(SIGINT);
-      return !InterruptGuard::requested();
     });
   }
   const InterruptGuard forgotten;  // forgets the interrupt for the tests that follow
@@ -126,7 +123,6 @@ TEST_CASE("Every case is tried by every solver to every tolerance, and the table
                        CHECK(done > last);
                        last = done;
                        CHECK(count == 16);
-                       return true;
                      });
   CHECK(last == 16);  // combinations that cannot be tried count as done
   REQUIRE(rows.size() == 8);
@@ -149,8 +145,7 @@ TEST_CASE("What a looser tolerance took all the time for is not tried to a tight
   CompareOptions options = options_in(folder.path(), parse_solvers("pgs,nncg"));
   options.tolerances = {1e-2, 1e-4};
   options.max_seconds = 1e-9;
-  const auto go_on = [](const CompareRow&, bool, size_t, size_t) { return true; };
-  const std::vector<CompareRow> rows = run_comparison(one_case(), options, go_on);
+  const std::vector<CompareRow> rows = run_comparison(one_case(), options, untold);
   REQUIRE(rows.size() == 4);
   for (const size_t k : {0, 1}) {
     const CompareRow &loose = rows[k], &tight = rows[k + 2];
@@ -164,7 +159,7 @@ TEST_CASE("What a looser tolerance took all the time for is not tried to a tight
     CHECK(tight.solve_seconds == loose.solve_seconds);
   }
   options.max_seconds = 20.0;
-  for (const CompareRow& row : run_comparison(one_case(), options, go_on)) CHECK(row.note.empty());
+  for (const CompareRow& row : run_comparison(one_case(), options, untold)) CHECK(row.note.empty());
 }
 
 TEST_CASE("A solve is repeated where another tolerance of the case was missed") {
@@ -172,9 +167,8 @@ TEST_CASE("A solve is repeated where another tolerance of the case was missed") 
   CompareOptions options = options_in(folder.path(), parse_solvers("pgs"));
   options.tolerances = {1e-7, 1e-30};
   options.repeats = 3;
-  const auto go_on = [](const CompareRow&, bool, size_t, size_t) { return true; };
   int solved = 0, missed = 0;
-  for (const CompareRow& row : run_comparison(one_case(), options, go_on))
+  for (const CompareRow& row : run_comparison(one_case(), options, untold))
     ++(row.verdict == Verdict::solved ? solved : missed);
   CHECK(solved == 3);
   CHECK(missed == 1);
@@ -193,7 +187,6 @@ TEST_CASE("A case that cannot be read is one row with its reason, and the others
     CHECK(done > last);
     CHECK(count == 24);
     last = done;
-    return true;
   };
   const std::vector<CompareRow> rows = run_comparison(cases, options, follow);
   CHECK(last == 24);

@@ -1,7 +1,7 @@
 // The closed loop from one start: equal settings give equal bits, and looser tolerances end farther
 // from the reference.
 
-#include "experiments/compare/live_page.hpp"
+#include "experiments/compare/live.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +36,8 @@ LiveOptions small_live(const std::filesystem::path& folder) {
   return options;
 }
 
+void say_nothing(const Trajectory&) {}
+
 double number_of(const char* name, size_t trajectory, const LiveComparison& live) {
   for (const LiveNumber& number : live_numbers())
     if (std::string(name) == number.name) return number.of(live.trajectories[trajectory], live);
@@ -55,12 +57,12 @@ const page::Picture* find_figure(const std::vector<page::Picture>& figures,
 TEST_CASE("One start under several backends and tolerances") {
   const TemporaryFolder folder;
   const LiveOptions options = small_live(folder.path());
-  const auto run = [&] { return run_live(options, [](const Trajectory&) { return true; }); };
+  const auto run = [&] { return run_live(options, say_nothing); };
   LiveOptions earlier = options;  // another start in the same folder
   earlier.start = 1e-3;
   earlier.duration = 2e-4;
   earlier.solvers = parse_solvers("pgs");
-  run_live(earlier, [](const Trajectory&) { return true; });
+  run_live(earlier, say_nothing);
   const LiveComparison comparison = run();
   REQUIRE(comparison.trajectories.size() == 4);
   CHECK(comparison.has_driven_wall);
@@ -75,12 +77,12 @@ TEST_CASE("One start under several backends and tolerances") {
     for (const StepRecord& step : t.steps)
       CHECK(step.error_rms <= t.tolerance * comparison.velocity_scale);
   }
-  REQUIRE(comparison.reference >= 2);  // one with the tight tolerance
-  const Trajectory& reference = *comparison.reference_trajectory();
+  REQUIRE(comparison.reference() >= &comparison.trajectories[2]);  // one with the tight tolerance
+  const Trajectory& reference = *comparison.reference();
   for (const Trajectory& t : comparison.trajectories)
     CHECK(reference.mean_error() <= t.mean_error());
   const double loose = distances(comparison.trajectories[0], reference).back();
-  const size_t other = comparison.reference == 2 ? 3 : 2;
+  const size_t other = &reference == &comparison.trajectories[2] ? 3 : 2;
   const double other_backend = distances(comparison.trajectories[other], reference).back();
   CHECK(distances(reference, reference).back() == 0.0);
   CHECK(loose > 0.0);
@@ -105,11 +107,11 @@ TEST_CASE("Trajectories of so many iterations stand beside those to a tolerance"
   options.solvers = parse_solvers("pgs");
   options.tolerances = {1e-8};
   options.iterations = {2, 30};
-  const LiveComparison live = run_live(options, [](const Trajectory&) { return true; });
+  const LiveComparison live = run_live(options, say_nothing);
   REQUIRE(live.trajectories.size() == 3);
   CHECK(live.trajectories[1].label() == "pgs 2 iterations");
   for (const Trajectory& t : live.trajectories) CHECK(t.is_complete());
-  CHECK(live.reference == 0);
+  CHECK(live.reference() == &live.trajectories[0]);
   CHECK(number_of("error_max", 0, live) <= 1e-8);
   CHECK(number_of("distance_end", 0, live) == 0.0);
   CHECK(number_of("iterations_mean", 1, live) == 2.0);
@@ -132,19 +134,21 @@ TEST_CASE("Trajectories of so many iterations stand beside those to a tolerance"
 }
 
 TEST_CASE("The reference is complete, of the exact law, and of the least mean error") {
-  std::vector<Trajectory> all = {hand_made_trajectory("pgs", 1e-1, 0.0),
-                                 hand_made_trajectory("nncg", 1e-2, 0.0)};
-  CHECK(reference_of(all) == 0);  // of equals, the first in the list
-  all[0].steps[1].error_rms *= 2.0;
-  CHECK(reference_of(all) == 1);
-  all[1].steps[0].error_rms = 0.0;
-  all[1].steps[1].error_rms = std::nan("");  // makes the mean not finite
-  CHECK(reference_of(all) == 0);
-  all[0].ended = "time limit";
-  CHECK(reference_of(all) == -1);
-  all[0].ended = Trajectory::complete;
-  all[0].law = "convex_relaxation";
-  CHECK(reference_of(all) == -1);
+  LiveComparison live;
+  live.trajectories = {hand_made_trajectory("pgs", 1e-1, 0.0),
+                       hand_made_trajectory("nncg", 1e-2, 0.0)};
+  Trajectory &first = live.trajectories[0], &second = live.trajectories[1];
+  CHECK(live.reference() == &first);  // of equals, the first in the list
+  first.steps[1].error_rms *= 2.0;
+  CHECK(live.reference() == &second);
+  second.steps[0].error_rms = 0.0;
+  second.steps[1].error_rms = std::nan("");  // makes the mean not finite
+  CHECK(live.reference() == &first);
+  first.ended = "time limit";
+  CHECK(live.reference() == nullptr);
+  first.ended = Trajectory::complete;
+  first.law = "convex_relaxation";
+  CHECK(live.reference() == nullptr);
 }
 
 TEST_CASE("Distances are rms over grains at common frames") {
@@ -194,7 +198,7 @@ TEST_CASE("A trajectory comes to its means, its worst and its end") {
   CHECK(number_of("distance_end", 0, live) == 0.0);
   // Without a driven wall or a reference their columns are empty and their figures missing.
   live.has_driven_wall = false;
-  live.reference = -1;
+  for (Trajectory& t : live.trajectories) t.law = "convex_relaxation";
   for (const char* name : {"wall_x_end", "wall_force_mean", "distance_end"})
     CHECK(std::isnan(number_of(name, 0, live)));
   const auto figures = live_figures(live);
@@ -225,7 +229,7 @@ TEST_CASE("Every trajectory with something to show is a line") {
   CHECK(curves[0].title == "pgs 0.1");
   CHECK(curves[0].y == std::vector<double>{1.0, 2.0});  // mm
   CHECK(curves[1].ink != curves[0].ink);
-  CHECK(curves[1].fineness < curves[0].fineness);  // has the tighter tolerance
+  CHECK(curves[1].dash < curves[0].dash);  // has the tighter tolerance
   CHECK(curves[0].opacity == 1.0);
   const page::Picture* cost = find_figure(figures, "live_cost");
   REQUIRE(cost);
@@ -263,6 +267,6 @@ TEST_CASE("No two of twenty-four backends look alike") {
   for (size_t a = 0; a < 24; ++a)
     for (size_t b = 0; b < a; ++b) {
       const Curve p = backend_curve(a, "p"), q = backend_curve(b, "q");
-      CHECK((p.ink != q.ink || p.dashed != q.dashed || p.width != q.width));
+      CHECK((p.ink != q.ink || p.dash != q.dash || p.width != q.width));
     }
 }

@@ -5,10 +5,8 @@
 #include <limits>
 
 #include "experiments/compare/compare_page.hpp"
-#include "experiments/page/html.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "platform/atomic_file.hpp"
-#include "platform/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/compare/hand_made_row.hpp"
 #include "tests/support/page_sample.hpp"

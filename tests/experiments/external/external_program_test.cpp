@@ -10,7 +10,6 @@
 #include "problems/algebra/contact_error.hpp"
 #include "problems/algebra/known_solutions.hpp"
 #include "problems/files/problem_file.hpp"
-#include "problems/scene/scene.hpp"
 #include "solvers/seam/run_solver.hpp"
 #include "solvers/solver_list.hpp"
 #include "tests/catch.hpp"
@@ -150,11 +149,11 @@ struct Asked {
                           .max_seconds = std::numeric_limits<double>::infinity(),
                           .id = 5};
   ExternalAnswer answer{.status = 0,
-                        .impulses = known.r,
-                        .iterations = 3,
-                        .own_residual = 1e-7,
-                        .seconds = 0.25,
-                        .history = {{0, 0.0, 1.0}, {3, 0.25, 1e-7}}};
+                        .solved = {.impulses = known.r,
+                                   .iterations = 3,
+                                   .own_residual = 1e-7,
+                                   .history = {{0, 0.0, 1.0}, {3, 0.25, 1e-7}}},
+                        .seconds = 0.25};
   std::filesystem::path file = folder.path() / "file.hdf5";
 
   std::string refusal() const {
@@ -198,34 +197,35 @@ TEST_CASE("An answer comes back with the rows of the problem") {
   write_answer(a.file, a.request, a.answer);
   const ExternalAnswer read = read_answer(a.file, a.request);
   CHECK(read.status == 0);
-  CHECK(read.impulses == a.answer.impulses);
-  CHECK(read.iterations == 3);
-  CHECK(read.own_residual == 1e-7);
+  CHECK(read.solved.impulses == a.answer.solved.impulses);
+  CHECK(read.solved.iterations == 3);
+  CHECK(read.solved.own_residual == 1e-7);
   CHECK(read.seconds == 0.25);
-  REQUIRE(read.history.size() == 2);
-  CHECK(read.history[1].error == 1e-7);
+  REQUIRE(read.solved.history.size() == 2);
+  CHECK(read.solved.history[1].error == 1e-7);
 }
 
 TEST_CASE("Optional numbers that say nothing cost no answer") {
   Asked a;
-  a.answer.own_residual = a.answer.seconds = std::nan("");
-  a.answer.iterations = std::numeric_limits<int>::max();
-  a.answer.history.insert(a.answer.history.begin(), {{0, 0.0, std::nan("")}, {1, HUGE_VAL, 1.0}});
+  a.answer.solved.own_residual = a.answer.seconds = std::nan("");
+  a.answer.solved.iterations = std::numeric_limits<int>::max();
+  a.answer.solved.history.insert(a.answer.solved.history.begin(),
+                                 {{0, 0.0, std::nan("")}, {1, HUGE_VAL, 1.0}});
   write_answer(a.file, a.request, a.answer);
   const ExternalAnswer read = read_answer(a.file, a.request);
-  CHECK(read.impulses == a.answer.impulses);
-  CHECK(read.own_residual == 0.0);
+  CHECK(read.solved.impulses == a.answer.solved.impulses);
+  CHECK(read.solved.own_residual == 0.0);
   CHECK(read.seconds == -1.0);
-  CHECK(read.iterations == 77);
-  REQUIRE(read.history.size() == 2);
-  CHECK(read.history[0].error == 1.0);
+  CHECK(read.solved.iterations == 77);
+  REQUIRE(read.solved.history.size() == 2);
+  CHECK(read.solved.history[0].error == 1.0);
 }
 
 TEST_CASE("What is no answer is refused with the reason") {
   Asked a;
   CHECK_THAT(a.refusal(), Contains("no such file"));
   SECTION("NaN") {
-    a.answer.impulses[4] = std::nan("");
+    a.answer.solved.impulses[4] = std::nan("");
     write_answer(a.file, a.request, a.answer);
     CHECK_THAT(a.refusal(), Contains("/ballast_answer/r[") && Contains("not finite"));
   }
@@ -252,7 +252,7 @@ TEST_CASE("What is no answer is refused with the reason") {
   SECTION("another problem's with this number") {
     ExternalRequest other = a.request;
     other.problem = make_known_solution({.bodies = 3, .contacts = 4}).problem;
-    a.answer.impulses.setZero(other.problem.row_count());
+    a.answer.solved.impulses.setZero(other.problem.row_count());
     write_answer(a.file, other, a.answer);
     CHECK_THAT(a.refusal(), Contains("12 entries, must have 36"));
   }
@@ -288,7 +288,7 @@ TEST_CASE("What is no answer is refused with the reason") {
 TEST_CASE("Who cannot solve needs no impulses") {
   Asked a;
   a.answer.status = ExternalAnswer::unsupported;
-  a.answer.impulses.resize(0);
+  a.answer.solved.impulses.resize(0);
   write_answer(a.file, a.request, a.answer);
   CHECK(read_answer(a.file, a.request).status == ExternalAnswer::unsupported);
   a.answer.status = 0;

@@ -1,5 +1,3 @@
-#include "experiments/page/html.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "platform/deflate.hpp"
@@ -75,6 +73,15 @@ TEST_CASE("nested styles are nested tags around each run") {
   CHECK(html_of(marked("**d *e***`f`")) == "<b>d </b><b><i>e</i></b><code>f</code>");
   CHECK(html_of(verdict(1.0, 2.0)) == "<span class=\"met\">✓ met</span>");
   CHECK(html_of(marked("[*b*](x?a=1&b)")) == "<a href=\"x?a=1&amp;b\"><i>b</i></a>");
+}
+
+TEST_CASE("a cell of more than 40 letters has a least width, however many bytes a letter has") {
+  for (const std::string letter : {"a", "µ"}) {
+    std::string words;
+    for (int k = 0; k < 40; ++k) words += letter;
+    CHECK_THAT(html_of(Block(Table{.rows = {{words}}})), !Contains("long"));
+    CHECK_THAT(html_of(Block(Table{.rows = {{words + letter}}})), Contains("<td class=\"long\">"));
+  }
 }
 
 TEST_CASE("words from outside cannot become HTML, wherever they stand") {

@@ -1,5 +1,3 @@
-#include "experiments/page/markdown.hpp"
-
 #include "tests/catch.hpp"
 #include "tests/experiments/page/small_page.hpp"
 

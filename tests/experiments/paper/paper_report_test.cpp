@@ -3,8 +3,6 @@
 
 #include <fstream>
 
-#include "experiments/page/html.hpp"
-#include "experiments/page/markdown.hpp"
 #include "experiments/paper/sections.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/paper/paper_runs.hpp"

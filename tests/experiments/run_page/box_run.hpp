@@ -6,21 +6,16 @@
 
 namespace ballast {
 
-struct BoxRun {
-  RunData data;
-  RunSummary summary;
-};
-
-inline BoxRun box_run(const SyntheticBox& box = {}) {
-  BoxRun run;
+inline MeasuredRun box_run(const SyntheticBox& box = {}) {
+  MeasuredRun run;
   run.data.steps = synthetic_box(box);
   run.data.facts = facts_of(box);
   run.summary = summarise(run.data.steps, run.data.facts);
   return run;
 }
 
-inline BoxRun slide_run() {
-  BoxRun run;
+inline MeasuredRun slide_run() {
+  MeasuredRun run;
   run.data.steps = synthetic_slide();
   run.summary = summarise(run.data.steps, run.data.facts);
   return run;

@@ -23,14 +23,14 @@ TEST_CASE("lines are thinned, forces have a readable unit") {
 using Catch::Matchers::Contains;
 
 TEST_CASE("the loop's phases take each step once, and the axis cuts spikes off") {
-  BoxRun box = box_run();
+  MeasuredRun box = box_run();
   const WallCycles& cycles = box.summary.wall;
-  const size_t first = cycles.periods[cycles.loop_first].first;
+  const size_t first = cycles.loop().front().first;
   box.data.steps[first + 10].wall_force = 1e9;  // a spike in one step
   const Panel panel = figure_4(box.data, box.summary).plot.panels.at(0);
   REQUIRE(panel.curves.size() == 5);  // each step, three phases, fits
   CHECK(*panel.y_max < 20.0);         // kN
-  const size_t last = cycles.periods[cycles.loop_last - 1].last;
+  const size_t last = cycles.loop().back().last;
   for (size_t k = first + 1; k < last; ++k) {
     int drawn = 0;
     for (size_t c = 1; c < 4; ++c) drawn += std::isfinite(panel.curves[c].y[k - first]);
@@ -41,7 +41,7 @@ TEST_CASE("the loop's phases take each step once, and the axis cuts spikes off")
 }
 
 TEST_CASE("captions say the run's own numbers") {
-  const BoxRun box = box_run();
+  const MeasuredRun box = box_run();
   const auto caption = [](const page::Picture& picture) {
     return plain_words(picture.caption.at(0));
   };
@@ -59,7 +59,7 @@ TEST_CASE("captions say the run's own numbers") {
 }
 
 TEST_CASE("of a wall that moves out no caption says that it goes in") {
-  BoxRun box = box_run();
+  MeasuredRun box = box_run();
   box.summary.contraction.size = 0.0;
   box.summary.net.mean = box.summary.rise.mean;
   CHECK_THAT(plain_words(figure_3(box.data, box.summary).caption.at(0)),
@@ -78,7 +78,7 @@ const page::Picture* find(const std::vector<page::Picture>& pictures, const std:
 }
 
 TEST_CASE("a slide without overlap has no figure of it, and no jam") {
-  BoxRun slide = slide_run();
+  MeasuredRun slide = slide_run();
   const auto figures = diagnostic_figures(slide.data, slide.summary);
   CHECK_FALSE(find(figures, "penetration"));
   CHECK_FALSE(find(figures, "jammed"));
@@ -97,7 +97,7 @@ TEST_CASE("a slide without overlap has no figure of it, and no jam") {
 }
 
 TEST_CASE("errors are drawn over g h when gravity is known, with the tolerance") {
-  BoxRun box = box_run();
+  MeasuredRun box = box_run();
   CHECK(find(diagnostic_figures(box.data, box.summary), "error")->plot.panels.at(0).lines.empty());
   box.summary.facts.tolerance = 0.01;
   const auto figures = diagnostic_figures(box.data, box.summary);

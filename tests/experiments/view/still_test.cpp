@@ -1,8 +1,7 @@
-#include "experiments/view/still.hpp"
-
 #include <cmath>
 #include <utility>
 
+#include "experiments/view/view.hpp"
 #include "platform/deflate.hpp"
 #include "tests/support/inflated.hpp"
 #include "tests/support/sample_run.hpp"

@@ -1,10 +1,8 @@
-#include "experiments/view/view_data.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "experiments/run/run.hpp"
-#include "experiments/view/view_page.hpp"
+#include "experiments/view/view.hpp"
 #include "platform/atomic_file.hpp"
 #include "platform/error.hpp"
 #include "problems/files/captured_problem.hpp"

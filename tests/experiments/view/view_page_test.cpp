@@ -1,7 +1,6 @@
-#include "experiments/view/view_page.hpp"
-
 #include <nlohmann/json.hpp>
 
+#include "experiments/view/view.hpp"
 #include "platform/deflate.hpp"
 #include "tests/support/sample_run.hpp"
 
@@ -104,7 +103,7 @@ TEST_CASE("shapes, walls, contacts and curves are in the head or in a part of it
   CHECK(part(replay, "shapes").size() == 2 * words);
   CHECK(part(replay, "walls").size() == 4 * 6 * 2 * 6);
   CHECK(part(replay, "series").size() == 4 * 2 * 2);
-  CHECK(part(replay, "grains").size() == 4 * 2 * 3);
+  CHECK(part(replay, "masses").size() == 4 * 2 * 3);
   // Body a is a grain: the second contact is turned round. A quarter of the force: half the root.
   CHECK(head["contact_counts"] == nlohmann::json({2, 2}));
   CHECK(head["largest_force"] == 4.0);

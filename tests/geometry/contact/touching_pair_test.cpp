@@ -60,9 +60,7 @@ TEST_CASE("a remembered pair says what the tables say, bit for bit, or nothing")
     remembered.record(c.pair(), before.axis, 3.0, heights);
     double chord = 0.0;
     const PairCase moved{c.a, c.b, jiggled(c.b_in_a, random, chord)};
-    SeparatingAxis axis;
-    std::span<const ManifoldPoint> points;
-    const auto look = remembered.look(moved.pair(), 3.0 + chord, limits, manifold, axis, points);
+    const auto [look, axis, points] = remembered.look(moved.pair(), 3.0 + chord, limits, manifold);
     const Known after = ask_tables(moved.pair(), before.axis.feature, limits);
     const Known fresh = ask_tables(moved.pair(), {}, limits);
     if (look == TouchingPair::PairOutcome::undecided) {

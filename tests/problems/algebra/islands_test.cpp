@@ -1,7 +1,5 @@
 // Islands: the search for components against a slow, simple one.
 
-#include "problems/algebra/islands.hpp"
-
 #include <algorithm>
 
 #include "problems/algebra/known_solutions.hpp"

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "problems/scene/imposed_motion.hpp"
+#include "problems/scene/scene.hpp"
 #include "tests/catch.hpp"
 
 using namespace ballast;

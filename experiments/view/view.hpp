@@ -1,6 +1,6 @@
 #pragma once
-// The content of a page's replay, before it is packed: bodies at some moments, contacts and curves,
-// of a run, a scene, a mesh or a captured problem.
+// What is shown in 3D: bodies at some moments, contacts and curves, of a run, a scene, a mesh or a
+// captured problem (view_data.cpp); its page (view_page.cpp) and still pictures of it (still.cpp).
 
 #include <filesystem>
 #include <functional>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/measure/run_data.hpp"
+#include "experiments/page/page.hpp"
 #include "experiments/record/record_file.hpp"
 #include "problems/mechanics/mechanical_system.hpp"
 
@@ -83,5 +84,44 @@ struct ErrorQuestion {
 /// time, or without such a run hulls of their contact points. Throws UnknownSolver, MissingSolver,
 /// UnsupportedProblem, Error.
 ViewData view_of_problem(const std::filesystem::path& file, const ErrorQuestion& question);
+
+// Pages.
+
+/// The most bytes of a replay in a page: frames and contacts are thinned out until it fits.
+inline constexpr size_t replay_bytes = 12u << 20;
+
+/// Packs the data of a replay, without picture and caption; experiments/page/replay/data.js reads
+/// them. If they would be more than `most_bytes` in the page, every second, fourth, ... frame is
+/// packed (the first and the last always), and the contacts of every second, ... of these frames.
+/// Throws std::invalid_argument without a frame.
+page::Replay pack_view(const ViewData& view, size_t most_bytes = replay_bytes);
+
+/// Returns a view as a part of a page: its data, a still picture of its first frame, and a caption
+/// that says how to use it.
+page::Replay replay_of(const ViewData& view);
+
+/// Writes the view as a page of its own, first beside `file`, then renamed to it. Throws Error.
+void write_view_page(const ViewData& view, const std::filesystem::path& file);
+
+// Pictures without a display, as PNG files.
+
+/// How a still picture is taken.
+struct StillOptions {
+  double yaw = -52.0, pitch = 20.0;  ///< direction towards the eye [degrees]
+  int width = 960, height = 640;     ///< [pixels]
+  bool with_chains = false;          ///< draws force chains, and the bodies as glass
+  bool operator==(const StillOptions&) const = default;
+};
+
+/// Sets yaw and pitch from a word of the command line: "home", "x", "-x", "y", "-y", "z", or
+/// "<yaw>,<pitch>" in degrees. Throws std::invalid_argument.
+void set_view(StillOptions& options, const std::string& word);
+
+/// Draws one frame as a PNG: bodies with the sun's shadow and dark edges, walls as glass, the load
+/// as an arrow. Colours show the speed of grains, on one scale for all frames of the view, or their
+/// size in a view of a single frame. Several frames become an animated PNG, which moves in every
+/// browser, with a tenth of a second for each.
+std::string still_png(const ViewData& view, const std::vector<size_t>& frames,
+                      const StillOptions& options);
 
 }  // namespace ballast

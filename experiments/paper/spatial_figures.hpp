@@ -1,8 +1,6 @@
 #pragma once
-// The 5 Hz runs as Figs. 3 to 7 need them, and the states that they store (record.state_rate): the
-// phase of the wall, the forces between bodies and the stress of each state.
-
-#include <functional>
+// The states that the 5 Hz runs store (record.state_rate), for Figs. 6 and 7: the phase of the
+// wall, the forces between bodies and the stress of each state.
 
 #include "experiments/box/vibrated_box.hpp"
 #include "experiments/paper/sections.hpp"
@@ -10,22 +8,6 @@
 #include "problems/mechanics/mechanical_system.hpp"
 
 namespace ballast {
-
-struct MotionRun {
-  RunData data;
-  RunSummary summary;
-};
-
-/// The finished runs of stage motion.
-std::vector<MotionRun> read_motion(PaperData& data);
-
-/// Mean over runs of a number of the summary, with its standard error.
-template <class Function>
-SampleMean mean_over(const std::vector<MotionRun>& runs, const Function& quantity) {
-  std::vector<double> values;
-  for (const MotionRun& run : runs) values.push_back(quantity(run.summary));
-  return sample_mean(values);
-}
 
 /// All contact points of two bodies together, taken as one contact. Forces are in newtons, in the
 /// world frame.
@@ -66,10 +48,5 @@ struct StoredState {
   /// y of the plane halfway between the side walls [m].
   double middle() const { return 0.5 * (wall(wall_y_min).y() + wall(wall_y_max).y()); }
 };
-
-/// Calls `see` for every stored state after the transient, in the order of time. States whose wall
-/// moves, but slower than 20 % of its largest speed, are left out: they are neither active nor
-/// passive yet. Returns the number of states seen. Throws Error.
-int for_each_state(const MotionRun& run, const std::function<void(const StoredState&)>& see);
 
 }  // namespace ballast

@@ -1,6 +1,6 @@
 // Stress and forces against closed-form answers.
 
-#include "experiments/paper/motion.hpp"
+#include "experiments/paper/spatial_figures.hpp"
 
 #include <cmath>
 #include <numbers>
