@@ -351,9 +351,11 @@ void fill_density(PaperData& data, PaperSection& section) {
 void fill_portraits(PaperData& data, PaperSection& section) {
   std::vector<double> raw, scaled;
   Portrait shown;
-  // at portrait_frequencies
-  const std::vector<MeasuredRun> fast = data.records("frequency frequency=10");
-  for (const MeasuredRun& slow : data.records("frequency frequency=5")) {
+  const auto records = [&](double frequency) {
+    return data.records(printed("frequency frequency=%g", frequency));
+  };
+  const std::vector<MeasuredRun> fast = records(portrait_frequencies[1]);
+  for (const MeasuredRun& slow : records(portrait_frequencies[0])) {
     const auto same = std::ranges::find_if(fast, [&](const MeasuredRun& other) {
       return other.data.facts.seed == slow.data.facts.seed;
     });
